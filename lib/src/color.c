@@ -1,0 +1,44 @@
+#include "pel/color.h"
+
+#include "row/row.h"
+
+pel_status pel_rgb_to_ycbcr_row(const uint8_t *rgb, uint8_t *ycbcr, uint16_t width, pel_range range)
+{
+    if (!rgb || !ycbcr || (unsigned)range > PEL_RANGE_LIMITED) {
+        return PEL_ERR_ARG;
+    }
+    pel_row_rgb_to_ycbcr(rgb, width, range == PEL_RANGE_LIMITED, ycbcr, ycbcr + 1, ycbcr + 2, 3);
+    return PEL_OK;
+}
+
+pel_status pel_ycbcr_to_rgb_row(const uint8_t *ycbcr, uint8_t *rgb, uint16_t width, pel_range range)
+{
+    if (!ycbcr || !rgb || (unsigned)range > PEL_RANGE_LIMITED) {
+        return PEL_ERR_ARG;
+    }
+    pel_row_ycbcr_to_rgb(ycbcr, ycbcr + 1, ycbcr + 2, 3, width, range == PEL_RANGE_LIMITED, rgb);
+    return PEL_OK;
+}
+
+pel_status pel_rgb_to_nrgb_row(const uint8_t *rgb, uint8_t *nrgb, uint16_t width, uint16_t sum_min)
+{
+    if (!rgb || !nrgb) {
+        return PEL_ERR_ARG;
+    }
+    pel_row_rgb_to_nrgb(rgb, width, sum_min, nrgb);
+    return PEL_OK;
+}
+
+pel_status pel_rgb_to_hsv_row(const uint8_t *rgb, uint8_t *hsv, uint16_t width)
+{
+    if (!rgb || !hsv) {
+        return PEL_ERR_ARG;
+    }
+    pel_row_rgb_to_hsv(rgb, width, hsv);
+    return PEL_OK;
+}
+
+int pel_hue_within(uint8_t hue, uint8_t from, uint8_t to)
+{
+    return (uint8_t)(hue - from) <= (uint8_t)(to - from);
+}
