@@ -1,0 +1,91 @@
+/*
+ * Colour classification: a row of pixels becomes a row of class labels.
+ *
+ * A label is one byte: 0 = no class (background), c + 1 = class c. Two kinds of classifier give it:
+ *
+ *   Boxes   A class is a box in YCbCr. Three tables of 256 masks, one for each of Y, U and V, hold a
+ *           bit per class; the AND of three look-ups has the bit of every class whose box holds the
+ *           colour, whatever the number of classes. Where boxes overlap the lowest class wins.
+ *           (Bruce, Balch, Veloso: Fast and inexpensive color image segmentation for interactive
+ *           robots, IROS 2000.) 768 bytes for 8 classes.
+ *   Table   A 3-D look-up table with a label per cell takes any decision: nearest neighbour,
+ *           Gaussian, tree. 3+5+5 bits = 8 KiB, 4+6+6 = 64 KiB.
+ */
+#ifndef PEL_CLASSIFY_H
+#define PEL_CLASSIFY_H
+
+#include "pel/image.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The box of one class in YCbCr; both ends belong to it. A box with a min over its max is empty. */
+typedef struct pel_color_box {
+    uint8_t y_min, y_max;
+    uint8_t u_min, u_max;
+    uint8_t v_min, v_max;
+} pel_color_box;
+
+/* The mask tables of up to PEL_CLASS_MAX boxes. May be const, in flash. All zero: no class. */
+typedef struct pel_boxes {
+    pel_class_mask y[256];
+    pel_class_mask u[256];
+    pel_class_mask v[256];
+} pel_boxes;
+
+/* Sets the box of a class, 0 <= class_index < PEL_CLASS_MAX, in place of the one it had. Start from
+ * a zeroed pel_boxes. PEL_ERR_ARG: null pointer or no such class. */
+pel_status pel_boxes_set(pel_boxes *boxes, unsigned class_index, const pel_color_box *box);
+
+/* A 3-D look-up table: the label of (y, u, v) is
+ * cell[((y >> (8-y_bits)) << (u_bits+v_bits)) | ((u >> (8-u_bits)) << v_bits) | (v >> (8-v_bits))].
+ * Bits: 0..8 each. Labels 0..255. The caller owns the cells. CMVision's .tm files are 4, 6, 6. */
+typedef struct pel_lut {
+    const uint8_t *cell;
+    uint8_t y_bits, u_bits, v_bits;
+} pel_lut;
+
+/* How many bytes the cells of a table take. */
+#define PEL_LUT_BYTES(y_bits, u_bits, v_bits) ((size_t)1 << ((y_bits) + (u_bits) + (v_bits)))
+size_t pel_lut_bytes(unsigned y_bits, unsigned u_bits, unsigned v_bits);
+
+/*
+ * What classifies: boxes, or, where boxes is NULL, a look-up table. `range` is the colour range that
+ * the classes were made for; a YCbCr row of the other range is refused, RGB rows are converted to it.
+ * `relabel`, if not NULL, is a table of 256 bytes applied to every label after that, so that several
+ * boxes or cells can stand for one colour. Zero value: refused (no classes).
+ */
+typedef struct pel_classifier {
+    const pel_boxes *boxes;
+    pel_lut lut;
+    pel_range range;
+    const uint8_t *relabel;
+} pel_classifier;
+
+/*
+ * Classifies a row of any format: labels[x] for 0 <= x < pel_colour_width(row).
+ * Cost per pixel: 4:2:x boxes, three look-ups at most; other formats are read in pieces of 32
+ * pixels first. Stack: under 256 bytes.
+ *
+ * PEL_ERR_ARG: null pointer, unknown format or range, no classes, table bits over 8. PEL_ERR_FORMAT:
+ * impossible width, or a colour range that is not the classifier's.
+ */
+pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *row, uint8_t *labels);
+
+/* Classifies one colour given as Y, U, V in the classifier's range; 0 where nothing matches or the
+ * classifier is NULL or empty. */
+uint8_t pel_classify_color(const pel_classifier *classifier, uint8_t y, uint8_t u, uint8_t v);
+
+/*
+ * Classifies a whole view into a picture of labels, GRAY8 of pel_colour_width x pel_colour_height;
+ * a loop over pel_classify_row. Statuses as above; PEL_ERR_SPACE: `labels` has another size.
+ */
+pel_status pel_classify_frame(const pel_classifier *classifier, const pel_cview *view,
+                              const pel_view *labels);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

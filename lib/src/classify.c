@@ -1,0 +1,163 @@
+#include "pel/classify.h"
+
+#include "format.h"
+#include "row/row.h"
+
+/* ---- Boxes and tables ---------------------------------------------------------------------- */
+
+static void set_interval(pel_class_mask table[256], pel_class_mask bit, unsigned min, unsigned max)
+{
+    for (unsigned i = 0; i < 256; i++) {
+        const pel_class_mask others = (pel_class_mask)(table[i] & (pel_class_mask)~bit);
+        table[i] = i >= min && i <= max ? (pel_class_mask)(others | bit) : others;
+    }
+}
+
+pel_status pel_boxes_set(pel_boxes *boxes, unsigned class_index, const pel_color_box *box)
+{
+    pel_class_mask bit;
+
+    if (!boxes || !box || class_index >= PEL_CLASS_MAX) {
+        return PEL_ERR_ARG;
+    }
+    bit = (pel_class_mask)((uint32_t)1 << class_index);
+    set_interval(boxes->y, bit, box->y_min, box->y_max);
+    set_interval(boxes->u, bit, box->u_min, box->u_max);
+    set_interval(boxes->v, bit, box->v_min, box->v_max);
+    return PEL_OK;
+}
+
+size_t pel_lut_bytes(unsigned y_bits, unsigned u_bits, unsigned v_bits)
+{
+    return PEL_LUT_BYTES(y_bits, u_bits, v_bits);
+}
+
+static pel_row_lut row_lut(const pel_lut *lut)
+{
+    pel_row_lut out;
+
+    out.cell = lut->cell;
+    out.y_drop = (uint8_t)(8 - lut->y_bits);
+    out.u_drop = (uint8_t)(8 - lut->u_bits);
+    out.v_drop = (uint8_t)(8 - lut->v_bits);
+    out.u_shift = lut->v_bits;
+    out.y_shift = (uint8_t)(lut->u_bits + lut->v_bits);
+    return out;
+}
+
+static pel_status check_classifier(const pel_classifier *classifier)
+{
+    const pel_lut *lut = &classifier->lut;
+
+    if ((unsigned)classifier->range > PEL_RANGE_LIMITED) {
+        return PEL_ERR_ARG;
+    }
+    if (classifier->boxes) {
+        return PEL_OK;
+    }
+    return lut->cell && lut->y_bits <= 8 && lut->u_bits <= 8 && lut->v_bits <= 8 ? PEL_OK
+                                                                                 : PEL_ERR_ARG;
+}
+
+/* ---- Rows ---------------------------------------------------------------------------------- */
+
+static void classify_yuv(const pel_classifier *classifier, const uint8_t *y, const uint8_t *u,
+                         const uint8_t *v, uint16_t count, uint8_t *labels)
+{
+    if (classifier->boxes) {
+        const pel_row_boxes boxes = {classifier->boxes->y, classifier->boxes->u,
+                                     classifier->boxes->v};
+        pel_row_classify(&boxes, y, u, v, count, labels);
+    } else {
+        const pel_row_lut lut = row_lut(&classifier->lut);
+        pel_row_classify_lut(&lut, y, u, v, count, labels);
+    }
+}
+
+enum { CHUNK = 32 }; /* pixels read at a time: 96 bytes of stack here, 96 in the reader */
+
+/* Any format, through the reader. */
+static void classify_in_chunks(const pel_classifier *classifier, const pel_crow *row,
+                               uint16_t width, uint8_t *labels)
+{
+    for (uint16_t x = 0; x < width; x = (uint16_t)(x + CHUNK)) {
+        uint8_t y[CHUNK], u[CHUNK], v[CHUNK];
+        const uint16_t n = (uint16_t)(width - x < CHUNK ? width - x : CHUNK);
+        (void)pel_crow_read_yuv(row, x, n, classifier->range, y, u, v); /* checked by the caller */
+        classify_yuv(classifier, y, u, v, n, labels + x);
+    }
+}
+
+pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *row, uint8_t *labels)
+{
+    const pel_format_info *info;
+    pel_status status = classifier && labels ? pel_crow_check(row) : PEL_ERR_ARG;
+    uint16_t width;
+
+    if (status == PEL_OK) {
+        status = check_classifier(classifier);
+    }
+    if (status != PEL_OK) {
+        return status;
+    }
+    info = pel_i_format(row->format);
+    width = pel_colour_width(row->format, row->width);
+    if (info->layout == PEL_LAYOUT_PAIRS && row->range != classifier->range) {
+        return PEL_ERR_FORMAT;
+    }
+    if (info->layout == PEL_LAYOUT_PAIRS && classifier->boxes) {
+        const pel_row_boxes boxes = {classifier->boxes->y, classifier->boxes->u,
+                                     classifier->boxes->v};
+        const pel_row_pairs pairs = pel_i_pairs(info, row);
+        pel_row_classify_pairs(&boxes, &pairs, width, labels);
+    } else {
+        classify_in_chunks(classifier, row, width, labels);
+    }
+    if (classifier->relabel) {
+        pel_row_map(labels, width, classifier->relabel, labels);
+    }
+    return PEL_OK;
+}
+
+uint8_t pel_classify_color(const pel_classifier *classifier, uint8_t y, uint8_t u, uint8_t v)
+{
+    uint8_t label;
+
+    if (!classifier || check_classifier(classifier) != PEL_OK) {
+        return 0;
+    }
+    classify_yuv(classifier, &y, &u, &v, 1, &label);
+    return classifier->relabel ? classifier->relabel[label] : label;
+}
+
+pel_status pel_classify_frame(const pel_classifier *classifier, const pel_cview *view,
+                              const pel_view *labels)
+{
+    pel_cview out;
+    pel_status status;
+
+    if (!classifier || !view || !labels) {
+        return PEL_ERR_ARG;
+    }
+    out = pel_view_to_read(labels);
+    status = pel_cview_check(view);
+    if (status == PEL_OK) {
+        status = pel_cview_check(&out);
+    }
+    if (status != PEL_OK) {
+        return status;
+    }
+    if (out.format != PEL_GRAY8) {
+        return PEL_ERR_FORMAT;
+    }
+    if (out.width != pel_colour_width(view->format, view->width) ||
+        out.height != pel_colour_height(view->format, view->height)) {
+        return PEL_ERR_SPACE;
+    }
+    for (uint16_t y = 0; y < out.height && status == PEL_OK; y++) {
+        const pel_crow row = pel_cview_row(view, y);
+        status = pel_classify_row(classifier, &row,
+                                  labels->plane[0] + (ptrdiff_t)labels->stride_bytes[0] * y);
+    }
+    return status;
+}
