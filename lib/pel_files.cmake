@@ -1,0 +1,15 @@
+# The list of sources and include folders of the library, and nothing else.
+# Every build (CMake, the ports, the packages) includes this file.
+set(PEL_LIB_DIR ${CMAKE_CURRENT_LIST_DIR})
+set(PEL_INCLUDE_DIR ${PEL_LIB_DIR}/include)
+set(PEL_SOURCES
+    ${PEL_LIB_DIR}/src/status.c
+    ${PEL_LIB_DIR}/src/fixed.c
+    ${PEL_LIB_DIR}/src/row/row_c.c
+    ${PEL_LIB_DIR}/src/color.c
+    ${PEL_LIB_DIR}/src/image.c
+    ${PEL_LIB_DIR}/src/classify.c
+    ${PEL_LIB_DIR}/src/blobs.c
+    ${PEL_LIB_DIR}/src/blobs_frame.c
+    ${PEL_LIB_DIR}/src/blob_shape.c
+    ${PEL_LIB_DIR}/src/blob_list.c)

@@ -1,0 +1,40 @@
+/* What the working memory of a finder holds. Private to blobs.c and blobs_frame.c. */
+#ifndef PEL_BLOB_SLOTS_H
+#define PEL_BLOB_SLOTS_H
+
+#include "pel/blobs.h"
+
+/* Its sums grow to the bounds that pel_blobs_begin enforces: area <= 2^22, sum_x, sum_y < 2^32. */
+struct pel_blob_slot {
+    uint32_t area; /* in the free and in the united list: the next slot */
+    uint32_t sum_x, sum_y;
+    uint16_t x0, x1, y0, y1;
+    uint16_t parent; /* itself for a root */
+    uint8_t label;   /* 0: the slot is free */
+    uint8_t broken;  /* a run of the blob was lost */
+};
+
+struct pel_blob_moments {
+    uint64_t xx12, xy, yy; /* 12 * sum of x*x: whole for every run without a division; < 2^46 */
+};
+
+struct pel_blob_outline {
+    uint32_t perimeter;
+    int32_t euler; /* runs - touching pairs of runs = 1 - holes */
+};
+
+struct pel_blob_color {
+    uint32_t y, u, v; /* sums; 255 * 2^22 < 2^30 */
+};
+
+typedef struct pel_blob_slot slot;
+
+/* Instead of a slot, a run's blob may be NO_BLOB (joined nothing yet), or LOST + its label - 1. */
+enum { LOST = 0xFF00, NO_BLOB = 0xFFFF, END = 0xFFFF };
+
+/* What lies behind the last run of a row: every search stops here. */
+enum { BEYOND = 0x7FFF };
+
+enum { STATE_IDLE, STATE_ROWS };
+
+#endif

@@ -1,0 +1,117 @@
+/* A frame: its start and the loop over its rows. */
+#include "blob_slots.h"
+#include "pel/blobs.h"
+
+size_t pel_blobs_bytes(uint16_t width, uint16_t open_max, unsigned measure)
+{
+    return PEL_BLOBS_BYTES(width, open_max, measure);
+}
+
+static pel_status check_config(const pel_blobs_config *c)
+{
+    const uint64_t sum_limit = (uint64_t)1 << 33; /* 2 * sum_x < width * width * height */
+    const uint64_t pixels = (uint64_t)c->width * c->height;
+
+    if (!c->work || (uintptr_t)c->work % 8 != 0 || (!c->results && c->results_max > 0) ||
+        (c->connectivity != 0 && c->connectivity != 4 && c->connectivity != 8) ||
+        c->measure > PEL_MEASURE_ALL || c->open_max == 0 || c->open_max > PEL_BLOBS_OPEN_LIMIT) {
+        return PEL_ERR_ARG;
+    }
+    if (pixels == 0 || c->width > PEL_SIDE_MAX || c->height > PEL_SIDE_MAX ||
+        pixels * c->width > sum_limit || pixels * c->height > sum_limit) {
+        return PEL_ERR_RANGE;
+    }
+    return c->work_bytes < pel_blobs_bytes(c->width, c->open_max, c->measure) ? PEL_ERR_SPACE
+                                                                              : PEL_OK;
+}
+
+/* Takes `count` elements from the working memory. The elements with the strictest alignment are taken
+ * first, so that all are aligned. */
+static void *take(uint8_t **next, size_t count, size_t bytes)
+{
+    void *const taken = *next;
+    *next += count * bytes;
+    return taken;
+}
+
+static void lay_out(pel_blobs *b)
+{
+    const pel_blobs_config *const c = &b->config;
+    const size_t open = c->open_max, width = (size_t)c->width + 1;
+    uint8_t *next = c->work;
+
+    b->moments = c->measure & PEL_MEASURE_MOMENTS ? take(&next, open, sizeof *b->moments) : NULL;
+    b->slots = take(&next, open, sizeof *b->slots);
+    b->outlines = c->measure & PEL_MEASURE_OUTLINE ? take(&next, open, sizeof *b->outlines) : NULL;
+    b->colors = c->measure & PEL_MEASURE_COLOR ? take(&next, open, sizeof *b->colors) : NULL;
+    for (unsigned i = 0; i < 2; i++) {
+        b->runs[i] = take(&next, width, sizeof *b->runs[i]);
+    }
+    for (unsigned i = 0; i < 2; i++) {
+        b->ids[i] = take(&next, width, sizeof *b->ids[i]);
+    }
+}
+
+static void free_all_slots(pel_blobs *b)
+{
+    for (uint16_t id = 0; id < b->config.open_max; id++) {
+        b->slots[id].label = 0;
+        b->slots[id].area = (uint32_t)id + 1;
+    }
+    b->slots[b->config.open_max - 1].area = END;
+    b->free_slot = 0;
+    b->united_slot = END;
+}
+
+pel_status pel_blobs_begin(pel_blobs *b, const pel_blobs_config *config)
+{
+    const pel_blobs_counts no_counts = {0, 0, 0, 0, 0, 0, 0, 0};
+    const pel_status status = b && config ? check_config(config) : PEL_ERR_ARG;
+
+    if (status != PEL_OK) {
+        return status;
+    }
+    b->config = *config;
+    b->counts = no_counts;
+    b->reach = config->connectivity == 4 ? 0 : 1;
+    lay_out(b);
+    b->open_count = 0;
+    free_all_slots(b);
+    b->results_count = 0;
+    b->above = 0;
+    b->above_count = 0;
+    b->runs[0][0].x0 = BEYOND;
+    b->runs[0][0].x1 = BEYOND;
+    b->next_row = 0;
+    b->state = STATE_ROWS;
+    return PEL_OK;
+}
+
+pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
+                           const pel_classifier *classifier, const pel_cview *view, uint8_t *labels,
+                           uint32_t *count)
+{
+    pel_status status = b && config && labels && count ? pel_cview_check(view) : PEL_ERR_ARG;
+    pel_crow row;
+
+    if (status != PEL_OK) {
+        return status;
+    }
+    if (config->width != pel_colour_width(view->format, view->width) ||
+        config->height != pel_colour_height(view->format, view->height)) {
+        return PEL_ERR_RANGE;
+    }
+    row = pel_cview_row(view, 0);
+    status = pel_classify_row(classifier, &row, labels); /* if it cannot do this row, it can none */
+    if (status == PEL_OK) {
+        status = pel_blobs_begin(b, config);
+    }
+    for (uint16_t y = 0; y < config->height && status >= 0; y++) {
+        row = pel_cview_row(view, y);
+        status = pel_classify_row(classifier, &row, labels);
+        if (status >= 0) {
+            status = pel_blobs_row(b, y, labels, &row);
+        }
+    }
+    return status < 0 ? status : pel_blobs_end(b, count);
+}
