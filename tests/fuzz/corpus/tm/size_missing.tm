@@ -1,0 +1,2 @@
+TMAP
+YUV8
