@@ -1,0 +1,492 @@
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "decimal.h"
+#include "draw.h"
+#include "options.h"
+#include "report.h"
+#include "say.h"
+#include "sink.h"
+#include "usage.h"
+#include "walk.h"
+
+static const char help[] =
+    "Usage: pel blobs -c CLASSES [OPTION]... INPUT...\n"
+    "\n"
+    "Finds the connected regions of every colour class and measures them.\n"
+    "\n"
+    "INPUT is a PPM, PGM, PNG, JPEG or YUV4MPEG2 file, or raw frames; '-' is standard input. "
+    "Frames\n"
+    "count from 0 over all inputs. Frames of a stream are processed as they arrive.\n"
+    "\n"
+    "  -c, --classes CLASSES    class file, CMVision's text format, or a .tm table\n"
+    "      --raw FORMAT WxH     INPUT holds raw frames: YUYV 320x240, for example\n"
+    "      --range RANGE        of raw YCbCr frames: full (default) or limited\n"
+    "      --connectivity 4|8   whether diagonal neighbours touch: 8 (default) they do\n"
+    "\n"
+    "Which blobs\n"
+    "      --min-area N         at least N pixels, default 1\n"
+    "      --min-density D      at least this part of the box filled, 0..1\n"
+    "      --class NAME         only this class, by name or number; may be repeated\n"
+    "      --roi X0,Y0,X1,Y1    only where the centroid lies in this box (x0 <= x < x1)\n"
+    "      --merge-density D    then unite blobs of a class where they fill more than this part of "
+    "the\n"
+    "                           box around both, 0..1 (CMVision's merge)\n"
+    "      --merge-margin N     then unite blobs of a class whose boxes, grown by N pixels, "
+    "overlap\n"
+    "      --max N              then keep the N largest of a frame, default all\n"
+    "\n"
+    "What to write\n"
+    "      --csv                a line per blob; the first line names the columns:\n"
+    "                           frame,class,name,area,x0,y0,x1,y1,sum_x,sum_y, then cx,cy "
+    "(centroid),\n"
+    "                           angle_deg (of the long axis, clockwise from x), elongation, "
+    "roundness,\n"
+    "                           density, compactness (0..1), perimeter, holes, edges (1 left, 2 "
+    "right,\n"
+    "                           4 top, 8 bottom: sum of the borders touched), mean_y, mean_u, "
+    "mean_v\n"
+    "      --json               an object per frame, on a line of its own\n"
+    "                           (otherwise a table for people)\n"
+    "  -o OUT                   the picture with boxes, axes and centroids drawn in: .ppm or .png. "
+    "With\n"
+    "                           more than one frame OUT contains %04d for the number of the frame; "
+    "'-'\n"
+    "                           writes PPM, one after another, in place of the list\n"
+    "\n"
+    "Rows are ordered by frame, then area (largest first), then y0, then x0. Boxes are half-open:\n"
+    "x0 <= x < x1. Nothing is lost: what filters and --max leave out is counted in table and "
+    "JSON.\n"
+    "\n"
+    "Examples\n"
+    "  pel blobs -c robot.classes --min-area 20 -o found.png robot.ppm\n"
+    "  pel blobs -c robot.classes --csv --max 1 --class orange *.ppm > ball.csv\n"
+    "  pel blobs -c robot.classes --raw YUYV 320x240 --json -   < camera.yuv\n";
+
+enum { NAMES_MAX = 32 };
+
+struct job {
+    const char *classes_path;
+    classes list;
+    source_options input;
+    const char *wanted[NAMES_MAX]; /* --class */
+    unsigned wanted_count;
+    pel_blob_filter filter;
+    uint8_t connectivity;
+    uint16_t merge_density_q15;
+    uint16_t merge_margin;
+    int merges_density, merges_margin;
+    unsigned long max; /* 0: all */
+    report_style style;
+    const char *output;
+    pel_blob *blobs; /* of the frame */
+    uint32_t count, room;
+    int out_of_memory;
+    int status; /* what the command will answer if it fails */
+};
+
+/* ---- The command line ---------------------------------------------------------------------- */
+
+static int read_connectivity(struct job *job)
+{
+    unsigned long number;
+    if (options_number("--connectivity", optarg, 4, 8, &number)) {
+        return -1;
+    }
+    if (number != 4 && number != 8) {
+        return say_error("blobs", "--connectivity is 4 or 8, not '%s'", optarg);
+    }
+    job->connectivity = (uint8_t)number;
+    return 0;
+}
+
+static int read_q15(const char *name, uint16_t *value_q15)
+{
+    int32_t milli;
+    if (decimal_milli("blobs", name, optarg, 0, 1000, &milli)) {
+        return -1;
+    }
+    const int32_t value = (milli * 32768 + 500) / 1000;
+    *value_q15 = (uint16_t)(value > 32767 ? 32767 : value);
+    return 0;
+}
+
+static int read_roi(pel_blob_filter *filter)
+{
+    unsigned x0;
+    unsigned y0;
+    unsigned x1;
+    unsigned y1;
+    char end;
+    if (strlen(optarg) > 19 || optarg[strspn(optarg, "0123456789,")] != '\0' ||
+        sscanf(optarg, "%u,%u,%u,%u%c", &x0, &y0, &x1, &y1, &end) != 4 || x0 >= x1 || y0 >= y1 ||
+        x1 > PEL_SIDE_MAX || y1 > PEL_SIDE_MAX) {
+        return say_error("blobs", "--roi needs X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, not '%s'",
+                         optarg);
+    }
+    filter->roi_x0 = (uint16_t)x0;
+    filter->roi_y0 = (uint16_t)y0;
+    filter->roi_x1 = (uint16_t)x1;
+    filter->roi_y1 = (uint16_t)y1;
+    return 0;
+}
+
+static int read_area(struct job *job)
+{
+    unsigned long number;
+    if (options_number("--min-area", optarg, 0, UINT32_MAX, &number)) {
+        return -1;
+    }
+    job->filter.area_min = (uint32_t)number;
+    return 0;
+}
+
+static int read_margin(struct job *job)
+{
+    unsigned long number;
+    if (options_number("--merge-margin", optarg, 0, PEL_SIDE_MAX, &number)) {
+        return -1;
+    }
+    job->merge_margin = (uint16_t)number;
+    job->merges_margin = 1;
+    return 0;
+}
+
+static int read_wanted(struct job *job)
+{
+    if (job->wanted_count == NAMES_MAX) {
+        return say_error("blobs", "--class is given more than %d times", (int)NAMES_MAX);
+    }
+    job->wanted[job->wanted_count++] = optarg;
+    return 0;
+}
+
+/* Takes an option with a value of its own; 0, or -1 after a message. */
+static int read_option(int option, int argc, char **argv, struct job *job)
+{
+    switch (option) {
+    case 'R':
+        return options_raw(argc, argv, &job->input);
+    case 'G':
+        return options_range(optarg, &job->input.range);
+    case 'k':
+        return read_connectivity(job);
+    case 'a':
+        return read_area(job);
+    case 'd':
+        return read_q15("--min-density", &job->filter.density_min_q15);
+    case 'n':
+        return read_wanted(job);
+    case 'r':
+        return read_roi(&job->filter);
+    case 'D':
+        job->merges_density = 1;
+        return read_q15("--merge-density", &job->merge_density_q15);
+    case 'M':
+        return read_margin(job);
+    default:
+        return options_number("--max", optarg, 1, UINT32_MAX, &job->max);
+    }
+}
+
+static int check(int argc, const struct job *job)
+{
+    if (!job->classes_path) {
+        return usage_error("blobs", "no classes given: say -c CLASSES");
+    }
+    if (optind >= argc) {
+        return usage_error("blobs", "no input given");
+    }
+    if (job->output && strcmp(job->output, "-") == 0 && job->style != REPORT_TABLE) {
+        return usage_error("blobs", "standard output cannot take both the list and the picture");
+    }
+    return -1;
+}
+
+static const struct option long_options[] = {{"classes", required_argument, NULL, 'c'},
+                                             {"raw", required_argument, NULL, 'R'},
+                                             {"range", required_argument, NULL, 'G'},
+                                             {"connectivity", required_argument, NULL, 'k'},
+                                             {"min-area", required_argument, NULL, 'a'},
+                                             {"min-density", required_argument, NULL, 'd'},
+                                             {"class", required_argument, NULL, 'n'},
+                                             {"roi", required_argument, NULL, 'r'},
+                                             {"merge-density", required_argument, NULL, 'D'},
+                                             {"merge-margin", required_argument, NULL, 'M'},
+                                             {"max", required_argument, NULL, 'x'},
+                                             {"csv", no_argument, NULL, 'v'},
+                                             {"json", no_argument, NULL, 'j'},
+                                             {"help", no_argument, NULL, 'h'},
+                                             {NULL, 0, NULL, 0}};
+
+/* Reads the command line: -1 to go on, or an exit status. */
+static int parse(int argc, char **argv, struct job *job)
+{
+    int option;
+    opterr = 0;
+    while ((option = getopt_long(argc, argv, ":c:o:h", long_options, NULL)) != -1) {
+        switch (option) {
+        case 'h':
+            fputs(help, stdout);
+            return EXIT_SUCCESS;
+        case 'c':
+            job->classes_path = optarg;
+            break;
+        case 'o':
+            job->output = optarg;
+            break;
+        case 'v':
+        case 'j':
+            if (job->style != REPORT_TABLE) {
+                return usage_error("blobs", "either --csv or --json, once");
+            }
+            job->style = option == 'v' ? REPORT_CSV : REPORT_JSON;
+            break;
+        case '?':
+        case ':':
+            return usage_bad_option("blobs", option, argv);
+        default:
+            if (read_option(option, argc, argv, job)) {
+                return usage_hint("blobs");
+            }
+        }
+    }
+    return check(argc, job);
+}
+
+static int find_class(const classes *list, const char *name)
+{
+    for (unsigned i = 0; i < list->count; i++) {
+        char number[12];
+        snprintf(number, sizeof number, "%u", i);
+        if (strcmp(list->entry[i].name, name) == 0 || strcmp(number, name) == 0) {
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
+/* Turns the names of --class into the filter's mask: 0, or -1 after a message. */
+static int choose_classes(struct job *job)
+{
+    for (unsigned i = 0; i < job->wanted_count; i++) {
+        const int found = find_class(&job->list, job->wanted[i]);
+        if (found < 0) {
+            job->status = EXIT_BAD_USAGE;
+            return say_error(job->classes_path, "has no class '%s'", job->wanted[i]);
+        }
+        job->filter.class_mask |= (uint32_t)1 << found;
+    }
+    return 0;
+}
+
+/* ---- The annotated picture ----------------------------------------------------------------- */
+
+/* The place of "%d", "%4d", "%04d", ... in a name, and how long it is; NULL if there is none. */
+static const char *find_number(const char *name, size_t *length)
+{
+    for (const char *p = strchr(name, '%'); p; p = strchr(p + 1, '%')) {
+        const size_t digits = strspn(p + 1, "0123456789");
+        if (digits <= 2 && p[1 + digits] == 'd') {
+            *length = digits + 2;
+            return p;
+        }
+    }
+    return NULL;
+}
+
+/* The name of a frame's picture, to be freed; NULL if memory is out. */
+static char *output_name(const char *pattern, unsigned long number)
+{
+    size_t length = 0;
+    const char *place = find_number(pattern, &length);
+    const size_t room = strlen(pattern) + 128;
+    char *name = malloc(room);
+    if (!name || !place) {
+        return name ? strcpy(name, pattern) : NULL;
+    }
+    const int width = atoi(place + 1);
+    const char *format = place[1] == '0' ? "%.*s%0*lu%s" : "%.*s%*lu%s";
+    snprintf(name, room, format, (int)(place - pattern), pattern, width, number, place + length);
+    return name;
+}
+
+static int read_rgb(const pel_cview *view, const pel_view *picture)
+{
+    for (uint16_t y = 0; y < picture->height; y++) {
+        const pel_crow row = pel_cview_row(view, y);
+        uint8_t *rgb = picture->plane[0] + (ptrdiff_t)y * picture->stride_bytes[0];
+        if (pel_crow_read_rgb(&row, 0, picture->width, rgb) != PEL_OK) {
+            return -1;
+        }
+    }
+    return 0;
+}
+
+static int annotate(const struct job *job, const char *path, unsigned long number,
+                    const pel_cview *view)
+{
+    frame picture = {0};
+    char *name = output_name(job->output, number);
+    int result = -1;
+    if (!name || frame_resize(&picture, PEL_RGB888, PEL_RANGE_FULL,
+                              pel_colour_width(view->format, view->width),
+                              pel_colour_height(view->format, view->height))) {
+        say_error(path, "out of memory");
+    } else if (read_rgb(view, &picture.view)) {
+        say_error(path, "cannot be turned into a picture");
+    } else {
+        for (uint32_t i = 0; i < job->count; i++) {
+            const class_entry *entry = &job->list.entry[job->blobs[i].class_index];
+            const draw_color color = {entry->red, entry->green, entry->blue};
+            draw_blob(&picture.view, &job->blobs[i], color);
+        }
+        const pel_cview drawn = pel_view_to_read(&picture.view);
+        result = sink_picture(name, &drawn, NULL);
+    }
+    frame_free(&picture);
+    free(name);
+    return result;
+}
+
+/* ---- Finding ------------------------------------------------------------------------------- */
+
+static void keep(void *user, const pel_blob *blob)
+{
+    struct job *job = user;
+    if (job->count == job->room) {
+        const uint32_t room = job->room ? 2 * job->room : 64;
+        pel_blob *larger = realloc(job->blobs, room * sizeof *larger);
+        if (!larger) {
+            job->out_of_memory = 1;
+            return;
+        }
+        job->blobs = larger;
+        job->room = room;
+    }
+    job->blobs[job->count++] = *blob;
+}
+
+/* Runs the finder with so much memory that nothing can be lost. */
+static int find(struct job *job, const char *path, const pel_cview *view, pel_blobs_counts *counts)
+{
+    const uint16_t width = pel_colour_width(view->format, view->width);
+    const uint16_t open_max = (uint16_t)PEL_BLOBS_OPEN_SAFE(width);
+    const size_t work_bytes = pel_blobs_bytes(width, open_max, PEL_MEASURE_ALL);
+    uint8_t *labels = malloc(width);
+    void *work = malloc(work_bytes);
+    pel_status status = PEL_ERR_SPACE;
+    if (labels && work) {
+        pel_blobs blobs;
+        uint32_t count;
+        pel_blobs_config config = {0};
+        config.width = width;
+        config.height = pel_colour_height(view->format, view->height);
+        config.open_max = open_max;
+        config.connectivity = job->connectivity;
+        config.measure = PEL_MEASURE_ALL;
+        config.work = work;
+        config.work_bytes = work_bytes;
+        config.filter = &job->filter;
+        config.on_blob = keep;
+        config.user = job;
+        status = pel_blobs_frame(&blobs, &config, &job->list.classifier, view, labels, &count);
+        *counts = blobs.counts;
+    }
+    free(labels);
+    free(work);
+    if (status == PEL_ERR_RANGE) {
+        return say_error(path, "a picture of %ux%u is too large: its sums could overflow",
+                         (unsigned)view->width, (unsigned)view->height);
+    }
+    if (status == PEL_ERR_SPACE || job->out_of_memory) {
+        return say_error(path, "out of memory");
+    }
+    return status < 0 ? say_error(path, "cannot be searched: %s", pel_status_name(status)) : 0;
+}
+
+static void merge_and_cut(struct job *job, pel_blobs_counts *counts)
+{
+    pel_blobs_sort(job->blobs, job->count);
+    if (job->merges_density) {
+        job->count = pel_blobs_merge_density(job->blobs, job->count, job->merge_density_q15);
+    }
+    if (job->merges_margin) {
+        job->count = pel_blobs_merge_margin(job->blobs, job->count, job->merge_margin);
+    }
+    counts->found = job->count;
+    while (job->max > 0 && job->count > job->max) {
+        job->count--;
+        counts->dropped++;
+        counts->dropped_px += job->blobs[job->count].area;
+    }
+}
+
+static int print_found(const struct job *job, const char *path, unsigned long number,
+                       const pel_cview *view, const pel_blobs_counts *counts)
+{
+    report_frame found = {0};
+    found.frame = number;
+    found.file = path;
+    found.width = pel_colour_width(view->format, view->width);
+    found.height = pel_colour_height(view->format, view->height);
+    found.list = &job->list;
+    found.blobs = job->blobs;
+    found.blob_count = job->count;
+    found.counts = *counts;
+    report_blobs(stdout, job->style, &found);
+    return report_close(stdout, "-"); /* flushed, so that a reader sees each frame at once */
+}
+
+static int visit(void *user, const char *path, unsigned long number, const pel_cview *view)
+{
+    struct job *job = user;
+    pel_blobs_counts counts = {0};
+    const int to_stdout = job->output && strcmp(job->output, "-") == 0;
+    size_t length;
+    if (number > 0 && job->output && !to_stdout && !find_number(job->output, &length)) {
+        job->status = usage_error("blobs",
+                                  "more than one frame, but '%s' is one picture: write %%04d "
+                                  "where the number of the frame shall be",
+                                  job->output);
+        return -1;
+    }
+    job->count = 0;
+    if (walk_check_range(path, view, job->classes_path, &job->list) ||
+        find(job, path, view, &counts)) {
+        return -1;
+    }
+    merge_and_cut(job, &counts);
+    if (!to_stdout && print_found(job, path, number, view, &counts)) {
+        return -1;
+    }
+    return job->output ? annotate(job, path, number, view) : 0;
+}
+
+static int run(int argc, char **argv)
+{
+    static struct job job;
+    const int status = parse(argc, argv, &job);
+    if (status >= 0) {
+        return status;
+    }
+    job.status = EXIT_BAD_INPUT;
+    if (classes_read(job.classes_path, &job.list)) {
+        return job.status;
+    }
+    int failed = choose_classes(&job);
+    if (!failed) {
+        if (!job.output || strcmp(job.output, "-") != 0) {
+            report_begin(stdout, job.style);
+        }
+        failed = walk_frames(argv + optind, argc - optind, &job.input, visit, &job);
+    }
+    free(job.blobs);
+    classes_free(&job.list);
+    return failed ? job.status : EXIT_SUCCESS;
+}
+
+const command cmd_blobs = {"blobs", "find and measure the coloured regions of pictures", help, run};
