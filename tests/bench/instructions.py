@@ -1,0 +1,313 @@
+#!/usr/bin/env python3
+"""Counts the instructions per pixel from a YUYV frame to sorted blobs, and holds them to limits.
+
+Per input: counts blobs, areas, runs and regions and compares them with the known ones, then runs
+the chain under callgrind with the basic and with all measurements. It fails where pel needs more
+instructions than CMVision 1.x, or 3 % more than expected.csv says (same compiler only).
+
+CMVision's figures: the 1.x code with raised limits, -O2, gcc 12.2, the same frames, 4-connected, 20
+pixels and more, counted in the same way. Known counts: the 4-connected ones agree in CMVision 1.x,
+OpenMV, grayskull and OpenCV.
+"""
+import argparse
+import csv
+import hashlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+EXPECTED = HERE / "expected.csv"
+SIZE = "640x480"
+LEVELS = ("basic", "all")
+GROWTH_ALLOWED = 0.03
+MARKERS = ("<!-- bench begin -->", "<!-- bench end -->")
+
+# The stages of --stages: functions whose calls, with all that they call, make the stage.
+STAGES = ("pel_classify_row", "pel_row_find_runs", "pel_blobs_row", "pel_blobs_end")
+
+
+class Input:
+    def __init__(self, title, cmvision, sha256=None, **counts):
+        self.title = title
+        self.cmvision = cmvision
+        self.sha256 = sha256  # of a photograph, first 8 bytes; None: made by bench_chain itself
+        self.counts = counts
+
+
+INPUTS = {
+    "synth": Input("40 coloured shapes, 8 classes", 14.9,
+                   blobs=40, area=69832, regions4=40, runs=1628),
+    "rand4": Input("noise in 4 x 4 cells", 26.6,
+                   blobs=679, area=144624, regions4=1297, runs=19120, regions8=86),
+    "rand1": Input("noise in every pixel", 67.2,
+                   blobs=1784, area=91982, regions4=20563, runs=77024, regions8=1119),
+    "china": Input("photograph, 6 classes", 17.6, "2c0580bd3e5fa9d9",
+                   blobs=144, regions4=972, runs=6056, regions8=483),
+    "cat": Input("photograph, 6 classes", 16.9, "595e20013a556cbb", runs=4888),
+}
+
+
+class Tally:
+    def __init__(self):
+        self.passed = self.failed = self.skipped = 0
+        self.lines = []
+
+    def check(self, ok, text):
+        self.passed += ok
+        self.failed += not ok
+        self.lines.append(("ok    " if ok else "FAIL  ") + text)
+
+    def skip(self, text):
+        self.skipped += 1
+        self.lines.append("skip  " + text)
+
+
+def run(command):
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}: status {done.returncode}\n{done.stderr}")
+    return done.stdout
+
+
+def run_chain(program, *arguments):
+    pairs = (line.split(None, 1) for line in run([program, *arguments]).splitlines())
+    return {key: int(value) if value.isdigit() else value for key, value in pairs}
+
+
+def make_photo(name, folder):
+    """The path of the photograph, or None and why there is none."""
+    path = folder / f"{name}.yuyv"
+    done = subprocess.run([sys.executable, HERE / "photos.py", name, SIZE, path],
+                          capture_output=True, text=True)
+    if done.returncode == 3:
+        return None, done.stderr.strip()
+    if done.returncode != 0:
+        return None, "photos.py failed: " + done.stderr.strip()[-200:]
+    digest = hashlib.sha256(path.read_bytes()).hexdigest()[:16]
+    if digest != INPUTS[name].sha256:
+        return None, f"SHA-256 {digest}, another resize than OpenCV 5.0.0"
+    return path, None
+
+
+def has_valgrind():
+    return shutil.which("valgrind") is not None
+
+
+def callgrind(program, level, source, folder):
+    """Instructions inside measured_chain, and the file that callgrind wrote."""
+    out = folder / f"{Path(str(source)).stem}.{level}.callgrind"
+    run(["valgrind", "--tool=callgrind", "--toggle-collect=measured_chain",
+         f"--callgrind-out-file={out}", program, level, source])
+    total = re.search(r"^(?:totals|summary): (\d+)", out.read_text(), re.MULTILINE)
+    if total is None or int(total.group(1)) == 0:
+        sys.exit("callgrind counted nothing inside measured_chain")
+    return int(total.group(1)), out
+
+
+def stages_of(out, pixels):
+    """Instructions per pixel of each stage, from callgrind's inclusive costs."""
+    text = run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", out])
+    cost = {}
+    for line in text.splitlines():
+        found = re.match(r"\s*([\d,]+) .*?:(\w+)(?:'\d+)?(?: \[|$)", line)
+        if found and found.group(2) in STAGES:
+            name = found.group(2)
+            count = int(found.group(1).replace(",", ""))
+            cost[name] = max(cost.get(name, 0), count)  # lists callers and callees apart
+    runs = cost.get("pel_row_find_runs", 0)
+    rows = {"classify": cost.get("pel_classify_row", 0), "find_runs": runs,
+            "join": cost.get("pel_blobs_row", 0) - runs, "end": cost.get("pel_blobs_end", 0)}
+    return {stage: count / pixels for stage, count in rows.items()}
+
+
+def check_counts(tally, name, source, program):
+    """Compares what the chain finds with what is known; returns the counts."""
+    counts = run_chain(program, "--count", source)
+    levels = {level: run_chain(program, level, source) for level in LEVELS}
+    tally.check(all(levels["basic"][k] == levels["all"][k] for k in ("blobs", "area", "regions4")),
+                f"{name}: both levels find the same")
+    counts.update(levels["all"])
+    for key, known in INPUTS[name].counts.items():
+        tally.check(counts[key] == known, f"{name}: {key} {counts[key]}, known {known}")
+    return counts
+
+
+def check_growth(tally, name, level, now, compiler, expected):
+    if (name, level) not in expected:
+        tally.skip(f"{name} {level}: no figure in {EXPECTED.name}")
+        return
+    before, made_by = expected[name, level]
+    growth = now / before - 1
+    text = (f"{name} {level}: {now:.3f} instructions per pixel, {100 * growth:+.1f} % against "
+            f"{before:.3f} ({made_by})")
+    if major(made_by) != major(compiler):
+        tally.skip(f"{text}, this is {compiler}")
+    else:
+        tally.check(growth <= GROWTH_ALLOWED, text)
+
+
+def major(compiler):
+    return compiler.split(".")[0]
+
+
+def measure(name, source, program, folder, tally, expected, with_stages):
+    counts = check_counts(tally, name, source, program)
+    row = {"input": name, **counts, "cmvision": INPUTS[name].cmvision}
+    for level in LEVELS:
+        row[level] = float("nan")
+        if not has_valgrind():
+            tally.skip(f"{name} {level}: instructions not counted, valgrind is not installed")
+            continue
+        total, out = callgrind(program, level, source, folder)
+        row[level] = total / counts["pixels"]
+        tally.check(row[level] <= row["cmvision"],
+                    f"{name} {level}: {row[level]:.2f} instructions per pixel, "
+                    f"CMVision 1.x {row['cmvision']}")
+        check_growth(tally, name, level, row[level], counts["compiler"], expected)
+        if with_stages:
+            row["stages " + level] = stages_of(out, counts["pixels"])
+    return row
+
+
+def read_expected():
+    if not EXPECTED.exists():
+        return {}
+    with EXPECTED.open(newline="") as file:
+        return {(r["input"], r["level"]): (float(r["instructions_per_px"]), r["compiler"])
+                for r in csv.DictReader(file)}
+
+
+def write_expected(rows):
+    figures = read_expected()
+    figures.update({(row["input"], level): (row[level], row["compiler"])
+                    for row in rows for level in LEVELS})
+    with EXPECTED.open("w", newline="") as file:
+        out = csv.writer(file, lineterminator="\n")
+        out.writerow(["input", "level", "instructions_per_px", "compiler"])
+        for (name, level), (figure, compiler) in figures.items():
+            out.writerow([name, level, f"{figure:.3f}", compiler])
+
+
+def print_table(rows):
+    print(f"{'input':<8}{'pel basic':>10}{'pel all':>10}{'CMVision 1.x':>14}"
+          f"{'runs':>8}{'blobs':>8}{'area':>9}")
+    for r in rows:
+        print(f"{r['input']:<8}{r['basic']:>10.2f}{r['all']:>10.2f}{r['cmvision']:>14.1f}"
+              f"{r['runs']:>8}{r['blobs']:>8}{r['area']:>9}")
+
+
+def print_csv(rows):
+    out = csv.writer(sys.stdout, lineterminator="\n")
+    out.writerow(["input", "pel_basic", "pel_all", "cmvision_1x", "runs", "blobs", "area_px",
+                  "compiler"])
+    for r in rows:
+        out.writerow([r["input"], f"{r['basic']:.3f}", f"{r['all']:.3f}", r["cmvision"], r["runs"],
+                      r["blobs"], r["area"], r["compiler"]])
+
+
+def print_markdown(rows):
+    print(MARKERS[0])
+    print("| 640x480 YUYV to sorted blobs | pel | pel, all measured | CMVision 1.x |")
+    print("| --- | ---: | ---: | ---: |")
+    for r in rows:
+        print(f"| {r['input']}: {INPUTS[r['input']].title}, {r['blobs']} blobs "
+              f"| {r['basic']:.1f} | {r['all']:.1f} | {r['cmvision']} |")
+    print(MARKERS[1])
+
+
+def print_stages(rows):
+    names = ("classify", "find_runs", "join", "end")
+    print(f"\n{'input':<8}{'level':<7}" + "".join(f"{name:>11}" for name in names))
+    for r in rows:
+        for level in LEVELS:
+            print(f"{r['input']:<8}{level:<7}" +
+                  "".join(f"{r['stages ' + level][name]:>11.2f}" for name in names))
+
+
+def print_times(rows, sources, program):
+    print(f"\n{'input':<8}{'level':<7}{'ns/px':>8}{'memcpy x':>10}   (for information)")
+    for r in rows:
+        for level in LEVELS:
+            t = run_chain(program, "--time", level, sources[r["input"]])
+            print(f"{r['input']:<8}{level:<7}{t['ns_per_px']:>8}{t['memcpy_ratio']:>10}")
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", help="the built bench_chain")
+    parser.add_argument("--inputs", default=",".join(INPUTS), help="which, with commas")
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument("--csv", action="store_true", help="only the table, as CSV")
+    form.add_argument("--markdown", action="store_true", help="only the table of the README")
+    parser.add_argument("--stages", action="store_true", help="also the cost of each stage")
+    parser.add_argument("--time", action="store_true", help="also nanoseconds, for information")
+    parser.add_argument("--write", action="store_true", help="write expected.csv, do not compare")
+    arguments = parser.parse_args()
+    arguments.inputs = arguments.inputs.split(",")
+    for name in arguments.inputs:
+        if name not in INPUTS:
+            parser.error(f"no input {name}; there are {', '.join(INPUTS)}")
+    return arguments
+
+
+def find_sources(names, folder, tally):
+    """What bench_chain is to be given for each input that there is."""
+    sources = {}
+    for name in names:
+        if INPUTS[name].sha256 is None:
+            sources[name] = name
+            continue
+        path, reason = make_photo(name, folder)
+        if path is None:
+            tally.skip(f"{name}: {reason}")
+        else:
+            sources[name] = path
+    return sources
+
+
+def report(arguments, rows, sources, tally):
+    if arguments.csv:
+        print_csv(rows)
+    elif arguments.markdown:
+        print_markdown(rows)
+    else:
+        print_table(rows)
+        if arguments.stages:
+            print_stages(rows)
+        if arguments.time:
+            print_times(rows, sources, arguments.program)
+        print()
+        print("\n".join(tally.lines))
+    if arguments.csv or arguments.markdown:
+        for line in tally.lines:
+            if line.startswith("FAIL"):
+                print(line, file=sys.stderr)
+
+
+def main():
+    arguments = parse_arguments()
+    plain = not (arguments.csv or arguments.markdown)
+    if not has_valgrind() and (not plain or arguments.write or arguments.stages):
+        sys.exit("valgrind is not installed")
+    tally = Tally()
+    expected = {} if arguments.write else read_expected()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        sources = find_sources(arguments.inputs, folder, tally)
+        rows = [measure(name, source, arguments.program, folder, tally, expected, arguments.stages)
+                for name, source in sources.items()]
+        report(arguments, rows, sources, tally)
+    if arguments.write:
+        write_expected(rows)
+    if plain:
+        skipped = f", {tally.skipped} skipped" if tally.skipped else ""
+        print(f"{tally.passed} passed, {tally.failed} failed{skipped}")
+    return 1 if tally.failed or not tally.passed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
