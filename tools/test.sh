@@ -22,6 +22,11 @@ mkdir -p "$logs"
 cd "$root"
 . tools/dev/need.sh
 
+clang_sanitizes() {
+    echo 'int main(void) { return 0; }' |
+        clang -fsanitize=address,undefined -x c - -o "$logs/clang-sanitizes"
+}
+
 need gcc has cc
 need gcc has gcc
 need libc6-dev has_header stdlib.h
@@ -29,6 +34,7 @@ need g++ has g++
 need make has make
 need cmake has cmake
 need clang has clang
+need libclang-rt-dev clang_sanitizes
 need clang-format has clang-format
 need valgrind has valgrind
 need pkg-config has pkg-config

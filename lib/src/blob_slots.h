@@ -15,11 +15,11 @@ struct pel_blob_slot {
 };
 
 struct pel_blob_moments {
-    uint64_t xx12, xy, yy; /* 12 * sum of x*x: whole for every run without a division; < 2^46 */
+    uint64_t xx12, xy, yy; /* 12 * sum of x*x: whole for every run without a division; <= 2^48 */
 };
 
 struct pel_blob_outline {
-    uint32_t perimeter;
+    int32_t edges; /* runs - pixel edges that they share: with the area, half the perimeter */
     int32_t euler; /* runs - touching pairs of runs = 1 - holes */
 };
 

@@ -1,17 +1,17 @@
 /*
  * Streaming connected components.
  *
- * A row goes through six steps:
+ * A row goes through five steps:
  *   find     the runs of the row
  *   join     each run to the open blobs whose runs it touches in the row above; blobs that turn out to
  *            be one are united (a union-find forest over the slots)
  *   close    the blobs of the row above that no run joined: their slots become free
- *   settle   the runs' blobs to the roots of the forest: then nothing refers to united slots any more
- *            and they become free too
- *   open     a blob for each run that joined none
- *   add      the runs to the sums of their blobs
- * As slots are freed before new ones are taken, and after the row every open blob owns a run of it,
- * there are never more open blobs than runs in a row.
+ *   add      each run to the sums of its blob, which from now on is the root of its tree; a run that
+ *            joined none opens a blob if there is a free slot
+ *   free     the united slots, to which nothing refers any more; runs that found no free slot before
+ *            open their blobs now
+ * So a blob is lost only if more blobs than slots are open after the row, and as every open blob owns a
+ * run of it, there are never more of them than runs in a row.
  */
 #include "pel/blobs.h"
 
@@ -55,17 +55,14 @@ static uint16_t take_slot(pel_blobs *b, uint8_t label)
         b->moments[id] = zero;
     }
     if (b->outlines) {
-        const struct pel_blob_outline zero = {0, 0};
-        b->outlines[id] = zero;
+        const struct pel_blob_outline one_run = {1, 1};
+        b->outlines[id] = one_run;
     }
     if (b->colors) {
         const struct pel_blob_color zero = {0, 0, 0};
         b->colors[id] = zero;
     }
     b->open_count++;
-    if (b->open_count > b->counts.open_peak) {
-        b->counts.open_peak = b->open_count;
-    }
     return id;
 }
 
@@ -88,7 +85,7 @@ static void unite_measures(pel_blobs *b, unsigned into, unsigned from)
         b->moments[into].yy += b->moments[from].yy;
     }
     if (b->outlines) {
-        b->outlines[into].perimeter += b->outlines[from].perimeter;
+        b->outlines[into].edges += b->outlines[from].edges;
         b->outlines[into].euler += b->outlines[from].euler;
     }
     if (b->colors) {
@@ -122,13 +119,13 @@ static unsigned unite(pel_blobs *b, unsigned id1, unsigned id2)
 
 /* ---- Runs join blobs ----------------------------------------------------------------------- */
 
-static inline uint8_t label_of_id(const slot *slots, unsigned id)
+static inline unsigned label_of_id(const slot *slots, unsigned id)
 {
-    return id < LOST ? slots[id].label : (uint8_t)(id - LOST + 1);
+    return id < LOST ? slots[id].label : id - LOST + 1;
 }
 
-/* A run whose blob so far is `id` touches a run of another blob, or of none: what it has now. */
-static unsigned join_others(pel_blobs *b, unsigned id, unsigned above)
+/* A run whose blob so far is `id` touches a run of blob `above`: the blob that it has now. */
+static unsigned touch(pel_blobs *b, unsigned id, unsigned above)
 {
     if (above >= LOST) {
         if (id < LOST) {
@@ -136,7 +133,8 @@ static unsigned join_others(pel_blobs *b, unsigned id, unsigned above)
         }
         return id < LOST ? id : above;
     }
-    if (id == NO_BLOB) {
+    above = find_root(b->slots, above);
+    if (id == NO_BLOB || id == above) {
         return above;
     }
     if (id >= LOST) {
@@ -146,89 +144,74 @@ static unsigned join_others(pel_blobs *b, unsigned id, unsigned above)
     return unite(b, id, above);
 }
 
-/* What a run shares with the runs of its blob in the row above does not count as outline. */
-static void share_outline(pel_blobs *b, unsigned id, pel_run run, pel_run above)
-{
-    const uint16_t from = larger(above.x0, run.x0), to = smaller(above.x1, run.x1);
-
-    if (id < LOST) {
-        b->outlines[id].perimeter -= to > from ? 2 * (uint32_t)(to - from) : 0;
-        b->outlines[id].euler--;
-    }
-}
-
-/* Joins the runs of the row to the runs of the same label that they touch; returns how many touch
- * none. A joined blob is marked by its y1, before its pixels are added. */
-static unsigned join_row(pel_blobs *b, uint16_t count, const uint8_t *labels)
+/* Joins the runs of the row to the runs of the same label that they touch. A joined blob is marked by
+ * its y1, before its pixels are added. */
+static void join_row(pel_blobs *b, size_t count, const uint8_t *labels)
 {
     const pel_run *above = b->runs[b->above];
     const uint16_t *ids_above = b->ids[b->above];
-    const pel_run *const runs = b->runs[1 - b->above];
-    uint16_t *const ids = b->ids[1 - b->above];
+    const pel_run *run = b->runs[1 - b->above];
+    const pel_run *const runs_end = run + count;
+    uint16_t *ids = b->ids[1 - b->above];
     slot *const slots = b->slots;
+    struct pel_blob_outline *const outlines = b->outlines;
     const int reach = b->reach;
-    unsigned alone = 0;
+    const uint16_t y1 = (uint16_t)(b->next_row + 1);
 
-    for (size_t i = 0; i < count; i++) {
-        const pel_run run = runs[i];
-        const int first = run.x0 - reach, end = run.x1 + reach;
-        const uint8_t label = labels[run.x0];
+    for (; run != runs_end; run++) {
+        const int x0 = run->x0, x1 = run->x1;
+        const unsigned label = labels[x0];
         unsigned id = NO_BLOB;
-        while (above->x1 <= first) {
+        int links = 1, shared = 1;
+        while (above->x1 <= x0 - reach) {
             above++;
             ids_above++;
         }
-        for (size_t k = 0; above[k].x0 < end; k++) {
-            unsigned other = ids_above[k];
-            if (label_of_id(slots, other) != label) {
-                continue;
-            }
-            if (other < LOST) {
-                other = find_root(slots, other);
-            }
-            if (other != id) {
-                id = join_others(b, id, other);
-            }
-            if (b->outlines) {
-                share_outline(b, id, run, above[k]);
+        for (size_t k = 0; above[k].x0 < x1 + reach; k++) {
+            const unsigned other = ids_above[k];
+            if (label_of_id(slots, other) == label) {
+                const int from = above[k].x0, to = above[k].x1;
+                links--;
+                shared -= (to < x1 ? to : x1) - (from > x0 ? from : x0); /* 0 at a corner */
+                id = id == NO_BLOB && other < LOST && slots[other].parent == other
+                         ? other
+                         : touch(b, id, other);
             }
         }
-        ids[i] = (uint16_t)id;
+        *ids++ = (uint16_t)id;
         if (id < LOST) {
-            slots[id].y1 = (uint16_t)(b->next_row + 1);
-        } else {
-            alone += id == NO_BLOB;
+            slots[id].y1 = y1;
+            if (outlines) {
+                outlines[id].edges += shared;
+                outlines[id].euler += links;
+            }
         }
     }
-    return alone;
 }
 
 /* ---- Blobs gather the pixels of the row ---------------------------------------------------- */
 
-static inline void add_basics(slot *t, pel_run run, uint32_t y)
+static inline void add_basics(slot *t, pel_run run, uint32_t n, uint32_t sum_x, uint32_t y)
 {
-    const uint32_t n = (uint32_t)(run.x1 - run.x0);
-
     t->area += n;
-    t->sum_x += n * ((uint32_t)run.x0 + run.x1 - 1) / 2; /* even: where n is odd, x0 + x1 is too */
+    t->sum_x += sum_x;
     t->sum_y += n * y;
-    t->x0 = smaller(t->x0, run.x0);
-    t->x1 = larger(t->x1, run.x1);
+    if (run.x0 < t->x0) {
+        t->x0 = run.x0;
+    }
+    if (run.x1 > t->x1) {
+        t->x1 = run.x1;
+    }
 }
 
-/* A run of n pixels with s = x0 + x1 - 1, twice its middle, in row y. Its sum of x*x is
- * n (3 s^2 + n^2 - 1) / 12; the bracket is below 2^30. */
-static inline void add_moments(struct pel_blob_moments *m, uint32_t n, uint32_t s, uint32_t y)
+/* With s = x0 + x1 - 1, twice the middle of a run of n, its sum of x*x is n (3 s^2 + n^2 - 1) / 12;
+ * the bracket is below 2^30. */
+static inline void add_moments(struct pel_blob_moments *m, uint32_t n, uint32_t s, uint32_t sum_x,
+                               uint32_t y)
 {
     m->xx12 += (uint64_t)n * (3 * s * s + n * n - 1);
-    m->xy += (uint64_t)(n * s / 2) * y;
+    m->xy += (uint64_t)sum_x * y;
     m->yy += (uint64_t)n * (y * y);
-}
-
-static inline void add_outline(struct pel_blob_outline *outline, uint32_t n)
-{
-    outline->perimeter += 2 + 2 * n;
-    outline->euler++;
 }
 
 static void add_color(struct pel_blob_color *color, const pel_crow *pixels, pel_run run)
@@ -245,41 +228,53 @@ static void add_color(struct pel_blob_color *color, const pel_crow *pixels, pel_
     }
 }
 
-/* What the caller asked for beyond the basics. */
-static void add_measures(pel_blobs *b, size_t id, pel_run run, const pel_crow *pixels)
+/* slots and moments are those of b: what the caller's loop keeps in registers. */
+static inline void add_run(pel_blobs *b, slot *slots, struct pel_blob_moments *moments, size_t id,
+                           pel_run run, uint32_t y, const pel_crow *pixels)
 {
-    const uint32_t n = (uint32_t)(run.x1 - run.x0);
-    const uint32_t s = (uint32_t)run.x0 + run.x1 - 1;
+    const uint32_t n = (uint32_t)(run.x1 - run.x0), s = (uint32_t)run.x0 + run.x1 - 1;
+    const uint32_t sum_x = n * s / 2; /* n * s is even: where n is odd, s is even */
 
-    if (b->moments) {
-        add_moments(&b->moments[id], n, s, b->next_row);
-    }
-    if (b->outlines) {
-        add_outline(&b->outlines[id], n);
+    add_basics(&slots[id], run, n, sum_x, y);
+    if (moments) {
+        add_moments(&moments[id], n, s, sum_x, y);
     }
     if (b->colors) {
         add_color(&b->colors[id], pixels, run);
     }
 }
 
-static void add_row(pel_blobs *b, uint16_t count, const pel_crow *pixels)
+/* Adds the runs of the row to their blobs, and opens blobs for those that touch none while there are
+ * free slots; returns for how many there was none. */
+static size_t add_row(pel_blobs *b, size_t count, const uint8_t *labels, const pel_crow *pixels)
 {
     const pel_run *const runs = b->runs[1 - b->above];
-    const uint16_t *const ids = b->ids[1 - b->above];
-    const unsigned measure = b->config.measure;
+    uint16_t *const ids = b->ids[1 - b->above];
+    slot *const slots = b->slots;
+    struct pel_blob_moments *const moments = b->moments;
     const uint32_t y = b->next_row;
+    size_t late = 0;
 
     for (size_t i = 0; i < count; i++) {
-        const size_t id = ids[i];
+        uint16_t id = ids[i];
         if (id >= LOST) {
-            b->counts.lost_px += (uint32_t)(runs[i].x1 - runs[i].x0);
-            continue;
+            if (id != NO_BLOB) {
+                b->counts.lost_px += (uint32_t)(runs[i].x1 - runs[i].x0);
+                continue;
+            }
+            id = take_slot(b, labels[runs[i].x0]);
+            if (id == END) {
+                late++;
+                continue;
+            }
+            ids[i] = id;
+        } else if (slots[id].parent != id) {
+            id = (uint16_t)find_root(slots, id);
+            ids[i] = id;
         }
-        add_basics(&b->slots[id], runs[i], y);
-        if (measure != 0) {
-            add_measures(b, id, runs[i], pixels);
-        }
+        add_run(b, slots, moments, id, runs[i], y, pixels);
     }
+    return late;
 }
 
 /* ---- Blobs that end ------------------------------------------------------------------------ */
@@ -321,7 +316,7 @@ static pel_blob describe(const pel_blobs *b, uint16_t id)
         blob.sum_yy = b->moments[id].yy;
     }
     if (b->outlines) {
-        blob.perimeter = b->outlines[id].perimeter;
+        blob.perimeter = 2 * (s->area + (uint32_t)b->outlines[id].edges);
         blob.holes = (uint32_t)(1 - b->outlines[id].euler);
     }
     if (b->colors) {
@@ -388,36 +383,27 @@ static void close_blob(pel_blobs *b, uint16_t id)
     free_slot(b, id);
 }
 
-/* Closes the blobs of the row above that are not marked as continued in row y. One that was united
- * with another lives on in it. */
+/* Closes the blobs of the row above to which row y added nothing. */
 static void close_ended(pel_blobs *b, uint32_t y)
 {
     const uint16_t *const ids = b->ids[b->above];
     const slot *const slots = b->slots;
     const size_t count = b->above_count;
+    const uint16_t y1 = (uint16_t)(y + 1);
 
     for (size_t k = 0; k < count; k++) {
-        const uint16_t id = ids[k];
-        if (id < LOST && slots[id].y1 != y + 1 && slots[id].parent == id && slots[id].label != 0) {
-            close_blob(b, id);
+        const unsigned id = ids[k];
+        /* A slot that is no root any more was united in this row: its root goes on. */
+        if (id < LOST && slots[id].y1 != y1 && slots[id].parent == id && slots[id].label != 0) {
+            close_blob(b, (uint16_t)id);
         }
     }
 }
 
 /* ---- A row --------------------------------------------------------------------------------- */
 
-static void settle(pel_blobs *b, uint16_t count)
+static void free_united(pel_blobs *b)
 {
-    uint16_t *const ids = b->ids[1 - b->above];
-
-    if (b->united_slot == END) {
-        return;
-    }
-    for (uint16_t i = 0; i < count; i++) {
-        if (ids[i] < LOST) {
-            ids[i] = (uint16_t)find_root(b->slots, ids[i]);
-        }
-    }
     while (b->united_slot != END) {
         const uint16_t id = b->united_slot;
         b->united_slot = (uint16_t)b->slots[id].area;
@@ -425,20 +411,24 @@ static void settle(pel_blobs *b, uint16_t count)
     }
 }
 
-static void open_blobs(pel_blobs *b, unsigned alone, const uint8_t *labels)
+/* Opens blobs for the last `late` runs that are still without, as far as there are slots. */
+static void open_late(pel_blobs *b, size_t late, const uint8_t *labels, const pel_crow *pixels)
 {
-    const pel_run *const runs = b->runs[1 - b->above];
-    uint16_t *const ids = b->ids[1 - b->above];
+    const pel_run *run = b->runs[1 - b->above];
+    uint16_t *id = b->ids[1 - b->above];
 
-    for (uint16_t i = 0; alone > 0; i++) {
-        if (ids[i] == NO_BLOB) {
-            const uint8_t label = labels[runs[i].x0];
-            ids[i] = take_slot(b, label);
-            if (ids[i] == END) {
-                ids[i] = (uint16_t)(LOST + label - 1);
+    for (; late > 0; run++, id++) {
+        if (*id == NO_BLOB) {
+            const uint8_t label = labels[run->x0];
+            *id = take_slot(b, label);
+            if (*id == END) {
+                *id = (uint16_t)(LOST + label - 1);
                 b->counts.lost_opens++;
+                b->counts.lost_px += (uint32_t)(run->x1 - run->x0);
+            } else {
+                add_run(b, b->slots, b->moments, *id, *run, b->next_row, pixels);
             }
-            alone--;
+            late--;
         }
     }
 }
@@ -446,8 +436,8 @@ static void open_blobs(pel_blobs *b, unsigned alone, const uint8_t *labels)
 pel_status pel_blobs_row(pel_blobs *b, uint16_t y, const uint8_t *labels, const pel_crow *pixels)
 {
     uint32_t lost_before;
-    unsigned alone;
     uint16_t count;
+    size_t late;
 
     if (!b || !labels) {
         return PEL_ERR_ARG;
@@ -468,11 +458,12 @@ pel_status pel_blobs_row(pel_blobs *b, uint16_t y, const uint8_t *labels, const 
     count = pel_row_find_runs(labels, b->config.width, &b->runs[1 - b->above]->x0);
     b->runs[1 - b->above][count].x0 = BEYOND;
     b->runs[1 - b->above][count].x1 = BEYOND;
-    alone = join_row(b, count, labels);
+    join_row(b, count, labels);
     close_ended(b, y);
-    settle(b, count);
-    open_blobs(b, alone, labels);
-    add_row(b, count, pixels);
+    late = add_row(b, count, labels, pixels);
+    free_united(b);
+    open_late(b, late, labels, pixels);
+    b->counts.open_peak = larger(b->counts.open_peak, b->open_count);
     b->above = (uint8_t)(1 - b->above);
     b->above_count = count;
     b->next_row++;

@@ -109,6 +109,8 @@ pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
     for (uint16_t y = 0; y < config->height && status >= 0; y++) {
         row = pel_cview_row(view, y);
         status = pel_classify_row(classifier, &row, labels);
+        row.range =
+            classifier->range; /* in which RGB is read: the mean colour is that of the classes */
         if (status >= 0) {
             status = pel_blobs_row(b, y, labels, &row);
         }

@@ -340,7 +340,7 @@ static pel_status check_read(const pel_crow *row, uint16_t x, uint16_t count)
                                                                             : PEL_ERR_RANGE;
 }
 
-enum { CHUNK = 32 }; /* pixels converted at a time: 96 bytes of stack */
+enum { CHUNK = 24 }; /* pixels converted at a time: 72 bytes of stack */
 
 pel_status pel_crow_read_yuv(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
                              uint8_t *y, uint8_t *u, uint8_t *v)

@@ -240,7 +240,8 @@ pel_status pel_blobs_begin(pel_blobs *blobs, const pel_blobs_config *config);
 
 /*
  * Adds row y: `width` labels, and for PEL_MEASURE_COLOR the row of pixels that they were made from
- * (of the same colour width; otherwise ignored, may be NULL). Both may be overwritten afterwards.
+ * (of the same colour width; RGB is read in the row's range; without colour ignored, may be NULL). Both
+ * may be overwritten afterwards.
  *
  * PEL_TRUNCATED: done, but a blob of this row was lost for want of open blobs. PEL_ERR_ORDER: not
  * the row that is due; the frame goes on unharmed. PEL_ERR_ARG: null pointer. PEL_ERR_FORMAT: the
@@ -257,7 +258,7 @@ pel_status pel_blobs_row(pel_blobs *blobs, uint16_t y, const uint8_t *labels,
 pel_status pel_blobs_end(pel_blobs *blobs, uint32_t *count);
 
 /*
- * A whole frame: begin, classify and add every row, end. `labels` is room for one row, colour width
+ * A whole frame: begin, classify and add every row, end. `labels` is scratch for one row, colour width
  * bytes; the size in `config` must be the colour size of the view. Statuses of the three calls;
  * also PEL_ERR_FORMAT where the view and the classifier do not fit, PEL_ERR_RANGE where sizes differ.
  */

@@ -254,28 +254,35 @@ uint8_t pel_row_label(pel_class_mask mask)
     return label_of(mask);
 }
 
-/* Most pixels are background, and most of those are told by their chroma alone: then the pair is
- * done after two look-ups. Called with constant steps, so that each layout gets its own loop. */
+/* Two pairs at a time: most pixels are background, and most of those are told by their chroma alone;
+ * then four of them are done after four look-ups. Called with constant steps, so that each layout gets
+ * its own loop. */
 static inline void classify_pairs(const pel_row_boxes *boxes, const pel_row_pairs *src,
                                   uint16_t count, uint8_t *labels, size_t y_step, size_t c_step)
 {
     const pel_class_mask *const of_y = boxes->y, *const of_u = boxes->u, *const of_v = boxes->v;
     const uint8_t *const y = src->y, *const u = src->u, *const v = src->v;
     const size_t pairs = count / 2;
+    size_t i = 0;
 
-    for (size_t i = 0; i < pairs; i++) {
-        const pel_class_mask chroma = of_u[u[i * c_step]] & of_v[v[i * c_step]];
-        if (chroma == 0) {
+    for (; i + 2 <= pairs; i += 2) {
+        const pel_class_mask left = of_u[u[i * c_step]] & of_v[v[i * c_step]];
+        const pel_class_mask right = of_u[u[(i + 1) * c_step]] & of_v[v[(i + 1) * c_step]];
+        if ((left | right) == 0) {
             labels[2 * i] = 0;
             labels[2 * i + 1] = 0;
+            labels[2 * i + 2] = 0;
+            labels[2 * i + 3] = 0;
         } else {
-            labels[2 * i] = label_of(chroma & of_y[y[2 * i * y_step]]);
-            labels[2 * i + 1] = label_of(chroma & of_y[y[(2 * i + 1) * y_step]]);
+            labels[2 * i + 3] = label_of(right & of_y[y[(2 * i + 3) * y_step]]);
+            labels[2 * i + 2] = label_of(right & of_y[y[(2 * i + 2) * y_step]]);
+            labels[2 * i + 1] = label_of(left & of_y[y[(2 * i + 1) * y_step]]);
+            labels[2 * i] = label_of(left & of_y[y[2 * i * y_step]]);
         }
     }
-    if (count & 1u) {
-        labels[2 * pairs] = label_of(of_u[u[pairs * c_step]] & of_v[v[pairs * c_step]] &
-                                     of_y[y[2 * pairs * y_step]]);
+    for (i *= 2; i < count; i++) {
+        const size_t c = i / 2 * c_step;
+        labels[i] = label_of(of_u[u[c]] & of_v[v[c]] & of_y[y[i * y_step]]);
     }
 }
 
@@ -352,10 +359,10 @@ static inline word load_aligned(const uint8_t *labels)
  */
 typedef struct run_writer {
     uint16_t *edge;
-    uint8_t label;
+    word label;
 } run_writer;
 
-static inline run_writer change_label(run_writer writer, uint8_t label, unsigned x)
+static inline run_writer change_label(run_writer writer, word label, unsigned x)
 {
     writer.edge[0] = (uint16_t)x;
     writer.edge[1] = (uint16_t)x;
@@ -364,7 +371,7 @@ static inline run_writer change_label(run_writer writer, uint8_t label, unsigned
     return writer;
 }
 
-static inline run_writer next_label(run_writer writer, uint8_t label, unsigned x)
+static inline run_writer next_label(run_writer writer, word label, unsigned x)
 {
     return label == writer.label ? writer : change_label(writer, label, x);
 }
@@ -394,15 +401,18 @@ static inline run_writer scan_word(run_writer writer, const uint8_t *labels, uns
     word changes = nonzero_bytes(here ^ before);
 
     if ((changes & both) == 0) { /* every change is a begin or an end: no label meets another */
-        for (; changes != 0; changes &= changes - 1) {
+        do {
             *writer.edge++ = (uint16_t)(x + lowest_byte(changes));
-        }
-        writer.label = labels[x + WORD_BYTES - 1];
+            changes &= changes - 1;
+        } while (changes != 0);
+        writer.label = here >> (8 * (WORD_BYTES - 1));
+        return writer;
     }
-    for (; changes != 0; changes &= changes - 1) {
+    do {
         const unsigned place = x + lowest_byte(changes);
         writer = change_label(writer, labels[place], place);
-    }
+        changes &= changes - 1;
+    } while (changes != 0);
     return writer;
 }
 #else
@@ -419,18 +429,20 @@ uint16_t pel_row_find_runs(const uint8_t *labels, uint16_t count, uint16_t *edge
 {
     const word ones = (word)-1 / 255;
     run_writer writer = {edges, 0};
-    unsigned x = 0;
+    const uint8_t *at = labels;
+    const uint8_t *const end = labels + count, *words_end;
 
-    for (; x < count && (uintptr_t)(labels + x) % WORD_BYTES != 0; x++) {
-        writer = next_label(writer, labels[x], x);
+    for (; at != end && (uintptr_t)at % WORD_BYTES != 0; at++) {
+        writer = next_label(writer, *at, (unsigned)(at - labels));
     }
-    for (; x + WORD_BYTES <= count; x += WORD_BYTES) {
-        if (load_aligned(labels + x) != writer.label * ones) {
-            writer = scan_word(writer, labels, x);
+    words_end = end - (size_t)(end - at) % WORD_BYTES;
+    for (; at != words_end; at += WORD_BYTES) {
+        if (load_aligned(at) != writer.label * ones) {
+            writer = scan_word(writer, labels, (unsigned)(at - labels));
         }
     }
-    for (; x < count; x++) {
-        writer = next_label(writer, labels[x], x);
+    for (; at != end; at++) {
+        writer = next_label(writer, *at, (unsigned)(at - labels));
     }
     writer = next_label(writer, 0, count);
     return (uint16_t)((size_t)(writer.edge - edges) / 2);
