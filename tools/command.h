@@ -12,6 +12,7 @@ typedef struct command {
     int (*run)(int argc, char **argv); /* argv[0] is the name; returns the exit status */
 } command;
 
-extern const command cmd_blobs, cmd_classify, cmd_runs, cmd_convert, cmd_scene, cmd_budget;
+extern const command cmd_blobs, cmd_classify, cmd_runs, cmd_convert, cmd_scene, cmd_budget,
+    cmd_classes;
 
 #endif

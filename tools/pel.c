@@ -10,8 +10,8 @@
 #include "command.h"
 #include "say.h"
 
-static const command *const commands[] = {&cmd_blobs,   &cmd_classify, &cmd_runs,
-                                          &cmd_convert, &cmd_scene,    &cmd_budget};
+static const command *const commands[] = {&cmd_blobs, &cmd_classify, &cmd_runs,   &cmd_convert,
+                                          &cmd_scene, &cmd_budget,   &cmd_classes};
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 

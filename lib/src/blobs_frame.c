@@ -1,5 +1,7 @@
 /* A frame: its start and the loop over its rows. */
 #include "blob_slots.h"
+#include "format.h"
+#include "overlap.h"
 #include "pel/blobs.h"
 
 size_t pel_blobs_bytes(uint16_t width, uint16_t open_max, unsigned measure)
@@ -20,6 +22,9 @@ static pel_status check_config(const pel_blobs_config *c)
     if (pixels == 0 || c->width > PEL_SIDE_MAX || c->height > PEL_SIDE_MAX ||
         pixels * c->width > sum_limit || pixels * c->height > sum_limit) {
         return PEL_ERR_RANGE;
+    }
+    if (pel_i_overlap(c->work, c->work_bytes, c->results, c->results_max * sizeof *c->results)) {
+        return PEL_ERR_ARG;
     }
     return c->work_bytes < pel_blobs_bytes(c->width, c->open_max, c->measure) ? PEL_ERR_SPACE
                                                                               : PEL_OK;
@@ -100,6 +105,9 @@ pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
     if (config->width != pel_colour_width(view->format, view->width) ||
         config->height != pel_colour_height(view->format, view->height)) {
         return PEL_ERR_RANGE;
+    }
+    if (pel_i_view_overlaps(view, labels, config->width)) {
+        return PEL_ERR_ARG;
     }
     row = pel_cview_row(view, 0);
     status = pel_classify_row(classifier, &row, labels); /* if it cannot do this row, it can none */

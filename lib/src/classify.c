@@ -102,6 +102,9 @@ pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *ro
     }
     info = pel_i_format(row->format);
     width = pel_colour_width(row->format, row->width);
+    if (pel_i_crow_overlaps(row, labels, width)) {
+        return PEL_ERR_ARG;
+    }
     if (info->layout == PEL_LAYOUT_PAIRS && row->range != classifier->range) {
         return PEL_ERR_FORMAT;
     }
@@ -130,6 +133,14 @@ uint8_t pel_classify_color(const pel_classifier *classifier, uint8_t y, uint8_t 
     return classifier->relabel ? classifier->relabel[label] : label;
 }
 
+/* Whether two views share memory, if only between their rows. */
+static int views_overlap(const pel_cview *a, const pel_cview *labels)
+{
+    const ptrdiff_t reach = (ptrdiff_t)labels->stride_bytes[0] * (labels->height - 1);
+    const uint8_t *const lowest = labels->plane[0] + (reach < 0 ? reach : 0);
+    return pel_i_view_overlaps(a, lowest, (size_t)(reach < 0 ? -reach : reach) + labels->width);
+}
+
 pel_status pel_classify_frame(const pel_classifier *classifier, const pel_cview *view,
                               const pel_view *labels)
 {
@@ -153,6 +164,9 @@ pel_status pel_classify_frame(const pel_classifier *classifier, const pel_cview 
     if (out.width != pel_colour_width(view->format, view->width) ||
         out.height != pel_colour_height(view->format, view->height)) {
         return PEL_ERR_SPACE;
+    }
+    if (views_overlap(view, &out)) {
+        return PEL_ERR_ARG;
     }
     for (uint16_t y = 0; y < out.height && status == PEL_OK; y++) {
         const pel_crow row = pel_cview_row(view, y);

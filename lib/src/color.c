@@ -1,10 +1,18 @@
 #include "pel/color.h"
 
+#include "overlap.h"
 #include "row/row.h"
+
+/* Rows of three bytes a pixel: the same one, or two that do not overlap. */
+static int places_ok(const uint8_t *src, const uint8_t *dst, uint16_t width)
+{
+    const size_t bytes = 3 * (size_t)width;
+    return src && dst && (src == dst || !pel_i_overlap(src, bytes, dst, bytes));
+}
 
 pel_status pel_rgb_to_ycbcr_row(const uint8_t *rgb, uint8_t *ycbcr, uint16_t width, pel_range range)
 {
-    if (!rgb || !ycbcr || (unsigned)range > PEL_RANGE_LIMITED) {
+    if (!places_ok(rgb, ycbcr, width) || (unsigned)range > PEL_RANGE_LIMITED) {
         return PEL_ERR_ARG;
     }
     pel_row_rgb_to_ycbcr(rgb, width, range == PEL_RANGE_LIMITED, ycbcr, ycbcr + 1, ycbcr + 2, 3);
@@ -13,7 +21,7 @@ pel_status pel_rgb_to_ycbcr_row(const uint8_t *rgb, uint8_t *ycbcr, uint16_t wid
 
 pel_status pel_ycbcr_to_rgb_row(const uint8_t *ycbcr, uint8_t *rgb, uint16_t width, pel_range range)
 {
-    if (!ycbcr || !rgb || (unsigned)range > PEL_RANGE_LIMITED) {
+    if (!places_ok(ycbcr, rgb, width) || (unsigned)range > PEL_RANGE_LIMITED) {
         return PEL_ERR_ARG;
     }
     pel_row_ycbcr_to_rgb(ycbcr, ycbcr + 1, ycbcr + 2, 3, width, range == PEL_RANGE_LIMITED, rgb);
@@ -22,7 +30,7 @@ pel_status pel_ycbcr_to_rgb_row(const uint8_t *ycbcr, uint8_t *rgb, uint16_t wid
 
 pel_status pel_rgb_to_nrgb_row(const uint8_t *rgb, uint8_t *nrgb, uint16_t width, uint16_t sum_min)
 {
-    if (!rgb || !nrgb) {
+    if (!places_ok(rgb, nrgb, width)) {
         return PEL_ERR_ARG;
     }
     pel_row_rgb_to_nrgb(rgb, width, sum_min, nrgb);
@@ -31,7 +39,7 @@ pel_status pel_rgb_to_nrgb_row(const uint8_t *rgb, uint8_t *nrgb, uint16_t width
 
 pel_status pel_rgb_to_hsv_row(const uint8_t *rgb, uint8_t *hsv, uint16_t width)
 {
-    if (!rgb || !hsv) {
+    if (!places_ok(rgb, hsv, width)) {
         return PEL_ERR_ARG;
     }
     pel_row_rgb_to_hsv(rgb, width, hsv);

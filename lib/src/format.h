@@ -40,4 +40,8 @@ pel_row_pairs pel_i_pairs(const pel_format_info *info, const pel_crow *row);
 void pel_i_read_rgb(const pel_format_info *info, const pel_crow *row, uint16_t x, uint16_t count,
                     uint8_t *rgb);
 
+/* Whether the bytes of a row, or of a view and what lies between its rows, overlap some memory. */
+int pel_i_crow_overlaps(const pel_crow *row, const void *memory, size_t bytes);
+int pel_i_view_overlaps(const pel_cview *view, const void *memory, size_t bytes);
+
 #endif

@@ -1,4 +1,5 @@
 #include "format.h"
+#include "overlap.h"
 
 /*
  * The formats, in the order of the enum. No pointers in here: the table stays in flash.
@@ -279,16 +280,20 @@ pel_crow pel_crow_packed(const uint8_t *pixels, pel_format format, pel_range ran
     return row;
 }
 
+/* How many pointers a row of the format has: a Bayer row is a pair of rows of the mosaic. */
+static unsigned row_planes(const pel_format_info *info)
+{
+    return info->layout == PEL_LAYOUT_BAYER ? 2 : info->planes;
+}
+
 pel_status pel_crow_check(const pel_crow *row)
 {
     const pel_format_info *info = row ? pel_i_format(row->format) : NULL;
-    unsigned planes;
 
     if (!info || (unsigned)row->range > PEL_RANGE_LIMITED) {
         return PEL_ERR_ARG;
     }
-    planes = info->layout == PEL_LAYOUT_BAYER ? 2 : info->planes;
-    for (unsigned p = 0; p < planes; p++) {
+    for (unsigned p = 0; p < row_planes(info); p++) {
         if (!row->plane[p]) {
             return PEL_ERR_ARG;
         }
@@ -328,6 +333,36 @@ void pel_i_read_rgb(const pel_format_info *info, const pel_crow *row, uint16_t x
     }
 }
 
+int pel_i_crow_overlaps(const pel_crow *row, const void *memory, size_t bytes)
+{
+    const pel_format_info *info = pel_i_format(row->format);
+    const unsigned planes = row_planes(info);
+    int found = 0;
+
+    for (unsigned p = 0; p < planes; p++) {
+        const unsigned like = info->planes == 1 ? 0 : p; /* both rows of a Bayer pair are alike */
+        found |=
+            pel_i_overlap(row->plane[p], plane_row_bytes(info, like, row->width), memory, bytes);
+    }
+    return found;
+}
+
+int pel_i_view_overlaps(const pel_cview *view, const void *memory, size_t bytes)
+{
+    const pel_format_info *info = pel_i_format(view->format);
+    int found = 0;
+
+    for (unsigned p = 0; p < info->planes; p++) {
+        const ptrdiff_t rows = p == 0 ? view->height : view->height / 2;
+        const ptrdiff_t reach = (rows - 1) * view->stride_bytes[p];
+        const uint8_t *const lowest = view->plane[p] + (reach < 0 ? reach : 0);
+        const size_t size =
+            (size_t)(reach < 0 ? -reach : reach) + plane_row_bytes(info, p, view->width);
+        found |= pel_i_overlap(lowest, size, memory, bytes);
+    }
+    return found;
+}
+
 /* What both public readers refuse. */
 static pel_status check_read(const pel_crow *row, uint16_t x, uint16_t count)
 {
@@ -340,7 +375,20 @@ static pel_status check_read(const pel_crow *row, uint16_t x, uint16_t count)
                                                                             : PEL_ERR_RANGE;
 }
 
-enum { CHUNK = 24 }; /* pixels converted at a time: 72 bytes of stack */
+enum { CHUNK = 32 }; /* pixels converted at a time: 96 bytes of stack */
+
+/* Any other layout to Y, U and V in pieces. */
+static void convert_rgb(const pel_format_info *info, const pel_crow *row, uint16_t x,
+                        uint16_t count, int limited, uint8_t *y, uint8_t *u, uint8_t *v)
+{
+    uint8_t rgb[3 * CHUNK];
+
+    for (uint16_t done = 0; done < count; done = (uint16_t)(done + CHUNK)) {
+        const uint16_t n = (uint16_t)(count - done < CHUNK ? count - done : CHUNK);
+        pel_i_read_rgb(info, row, (uint16_t)(x + done), n, rgb);
+        pel_row_rgb_to_ycbcr(rgb, n, limited, y + done, u + done, v + done, 1);
+    }
+}
 
 pel_status pel_crow_read_yuv(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
                              uint8_t *y, uint8_t *u, uint8_t *v)
@@ -352,6 +400,11 @@ pel_status pel_crow_read_yuv(const pel_crow *row, uint16_t x, uint16_t count, pe
     if (status != PEL_OK) {
         return status;
     }
+    if (pel_i_crow_overlaps(row, y, count) || pel_i_crow_overlaps(row, u, count) ||
+        pel_i_crow_overlaps(row, v, count) || pel_i_overlap(y, count, u, count) ||
+        pel_i_overlap(y, count, v, count) || pel_i_overlap(u, count, v, count)) {
+        return PEL_ERR_ARG;
+    }
     info = pel_i_format(row->format);
     if (info->layout == PEL_LAYOUT_PAIRS) {
         const pel_row_pairs pairs = pel_i_pairs(info, row);
@@ -361,13 +414,22 @@ pel_status pel_crow_read_yuv(const pel_crow *row, uint16_t x, uint16_t count, pe
         pel_row_read_pairs(&pairs, x, count, y, u, v);
         return PEL_OK;
     }
-    for (uint16_t done = 0; done < count; done = (uint16_t)(done + CHUNK)) {
-        uint8_t rgb[3 * CHUNK];
-        const uint16_t n = (uint16_t)(count - done < CHUNK ? count - done : CHUNK);
-        pel_i_read_rgb(info, row, (uint16_t)(x + done), n, rgb);
-        pel_row_rgb_to_ycbcr(rgb, n, range == PEL_RANGE_LIMITED, y + done, u + done, v + done, 1);
-    }
+    convert_rgb(info, row, x, count, range == PEL_RANGE_LIMITED, y, u, v);
     return PEL_OK;
+}
+
+/* Pairs to R G B in pieces. */
+static void convert_pairs(const pel_row_pairs *pairs, uint16_t x, uint16_t count, int limited,
+                          uint8_t *rgb)
+{
+    uint8_t yuv[3 * CHUNK];
+
+    for (uint16_t done = 0; done < count; done = (uint16_t)(done + CHUNK)) {
+        const uint16_t n = (uint16_t)(count - done < CHUNK ? count - done : CHUNK);
+        pel_row_read_pairs(pairs, (uint16_t)(x + done), n, yuv, yuv + CHUNK, yuv + 2 * CHUNK);
+        pel_row_ycbcr_to_rgb(yuv, yuv + CHUNK, yuv + 2 * CHUNK, 1, n, limited,
+                             rgb + 3 * (size_t)done);
+    }
 }
 
 pel_status pel_crow_read_rgb(const pel_crow *row, uint16_t x, uint16_t count, uint8_t *rgb)
@@ -378,16 +440,13 @@ pel_status pel_crow_read_rgb(const pel_crow *row, uint16_t x, uint16_t count, ui
     if (status != PEL_OK) {
         return status;
     }
+    if (pel_i_crow_overlaps(row, rgb, 3 * (size_t)count)) {
+        return PEL_ERR_ARG;
+    }
     info = pel_i_format(row->format);
     if (info->layout == PEL_LAYOUT_PAIRS) {
         const pel_row_pairs pairs = pel_i_pairs(info, row);
-        for (uint16_t done = 0; done < count; done = (uint16_t)(done + CHUNK)) {
-            uint8_t y[CHUNK], u[CHUNK], v[CHUNK];
-            const uint16_t n = (uint16_t)(count - done < CHUNK ? count - done : CHUNK);
-            pel_row_read_pairs(&pairs, (uint16_t)(x + done), n, y, u, v);
-            pel_row_ycbcr_to_rgb(y, u, v, 1, n, row->range == PEL_RANGE_LIMITED,
-                                 rgb + 3 * (size_t)done);
-        }
+        convert_pairs(&pairs, x, count, row->range == PEL_RANGE_LIMITED, rgb);
     } else {
         pel_i_read_rgb(info, row, x, count, rgb);
     }

@@ -22,7 +22,8 @@ ARROWS = {
     "point": ["color"],
     "color": ["image"],  # for pel_range alone
     "image": ["row"],
-    "row": ["fixed", "status", "config"],
+    "row": ["fixed", "status", "config", "overlap"],
+    "overlap": [],
     "fixed": [],
     "status": ["version"],
     "version": [],

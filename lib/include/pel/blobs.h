@@ -231,8 +231,8 @@ typedef struct pel_blobs {
 /*
  * Starts a frame; any frame in progress is forgotten. The config is copied.
  *
- * PEL_ERR_ARG: null pointer, misaligned work, connectivity not 0, 4, 8, unknown measure bits, open_max
- * out of range. PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX, or so large that a 32-bit sum could
+ * PEL_ERR_ARG: null pointer, misaligned work, work that overlaps the results, connectivity not 0, 4, 8,
+ * unknown measure bits, open_max out of range. PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX, or so large that a 32-bit sum could
  * overflow (width * width * height or width * height * height over 2^33: 1920 x 1080 and 2048 x 2048
  * are allowed, 2592 x 1944 is not). PEL_ERR_SPACE: work_bytes too small.
  */

@@ -68,7 +68,8 @@ typedef struct pel_classifier {
  * Cost per pixel: 4:2:x boxes, three look-ups at most; other formats are read in pieces of 32
  * pixels first. Stack: under 256 bytes.
  *
- * PEL_ERR_ARG: null pointer, unknown format or range, no classes, table bits over 8. PEL_ERR_FORMAT:
+ * PEL_ERR_ARG: null pointer, unknown format or range, no classes, table bits over 8, labels that
+ * overlap the row. PEL_ERR_FORMAT:
  * impossible width, or a colour range that is not the classifier's.
  */
 pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *row, uint8_t *labels);

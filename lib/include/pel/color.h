@@ -2,8 +2,8 @@
  * Colour spaces, one row at a time, exactly rounded.
  *
  * All rows are packed, three bytes a pixel: R G B, Y U V (U = Cb, V = Cr), r g b (normalised),
- * H S V. width is the number of pixels, any. Source and destination may be the same row.
- * All return PEL_OK, or PEL_ERR_ARG for a null pointer or an unknown range.
+ * H S V. width is the number of pixels, any. Source and destination may be the same row. All return
+ * PEL_OK, or PEL_ERR_ARG for a null pointer, an unknown range, or rows that overlap otherwise.
  */
 #ifndef PEL_COLOR_H
 #define PEL_COLOR_H

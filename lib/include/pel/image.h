@@ -147,8 +147,9 @@ pel_status pel_crow_check(const pel_crow *row);
  * does. 5 and 6 bits of RGB565 become 8 by repeating the top bits. A Bayer cell gives one colour:
  * its R, its B and the mean of its two G, halves upward.
  *
- * PEL_ERR_ARG: null pointer, unknown format or range. PEL_ERR_RANGE: x + count is over
- * pel_colour_width. PEL_ERR_FORMAT: impossible width, or a YCbCr row whose range is not the one asked.
+ * PEL_ERR_ARG: null pointer, unknown format or range, outputs that overlap the row or each other.
+ * PEL_ERR_RANGE: x + count is over pel_colour_width. PEL_ERR_FORMAT: impossible width, or a YCbCr row
+ * whose range is not the one asked.
  */
 pel_status pel_crow_read_yuv(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
                              uint8_t *y, uint8_t *u, uint8_t *v);
