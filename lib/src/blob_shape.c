@@ -30,15 +30,22 @@ static int32_t divide_q16(uint32_t sum, uint32_t area)
 
 void pel_blob_centroid_q16(const pel_blob *blob, int32_t *x_q16, int32_t *y_q16)
 {
-    *x_q16 = blob->area == 0 ? 0 : divide_q16(blob->sum_x, blob->area);
-    *y_q16 = blob->area == 0 ? 0 : divide_q16(blob->sum_y, blob->area);
+    const int known = blob && blob->area != 0;
+
+    if (x_q16) {
+        *x_q16 = known ? divide_q16(blob->sum_x, blob->area) : 0;
+    }
+    if (y_q16) {
+        *y_q16 = known ? divide_q16(blob->sum_y, blob->area) : 0;
+    }
 }
 
 /*
  * Second central moments times area^2: spread = c20 + c02, difference = |c20 - c02|, mixed = |2 c11|,
  * and the signs of the last two. area * sum_xx may pass 2^64, but what is left after subtracting
- * sum_x^2 is at most area^2 * side^2 / 12 < 2^63 within the sizes of pel_blobs_begin, and unsigned
- * arithmetic is exact modulo 2^64. mixed <= spread < 2^64.
+ * sum_x^2 does not: area * sum of (x - mean)^2 only grows with every pixel that is added, so the full
+ * frame bounds it, (width^2 height)^2 / 12 < 2^63 within the sizes of pel_blobs_begin; and unsigned
+ * arithmetic is exact modulo 2^64. mixed <= spread < 2^64. Moments that were not measured give zeros.
  */
 typedef struct axes {
     uint64_t spread, difference, mixed;
@@ -47,12 +54,18 @@ typedef struct axes {
 
 static axes axes_of(const pel_blob *blob)
 {
-    const uint64_t area = blob->area, sx = blob->sum_x, sy = blob->sum_y;
-    const uint64_t c20 = area * blob->sum_xx - sx * sx;
-    const uint64_t c02 = area * blob->sum_yy - sy * sy;
-    const uint64_t c11 = area * blob->sum_xy - sx * sy;
-    axes a;
+    axes a = {0, 0, 0, 0, 0};
+    uint64_t area, sx, sy, c20, c02, c11;
 
+    if (!blob || (blob->sum_xx == 0 && blob->sum_yy == 0)) { /* not measured, or the pixel (0, 0) */
+        return a;
+    }
+    area = blob->area;
+    sx = blob->sum_x;
+    sy = blob->sum_y;
+    c20 = area * blob->sum_xx - sx * sx;
+    c02 = area * blob->sum_yy - sy * sy;
+    c11 = area * blob->sum_xy - sx * sy;
     a.spread = c20 + c02;
     a.difference_negative = c20 < c02;
     a.difference = c20 < c02 ? c02 - c20 : c20 - c02;
@@ -129,13 +142,14 @@ uint16_t pel_blob_elongation_q15(const pel_blob *blob)
 
 uint16_t pel_blob_density_q15(const pel_blob *blob)
 {
-    const uint32_t box = (uint32_t)(blob->x1 - blob->x0) * (uint32_t)(blob->y1 - blob->y0);
+    const uint32_t box =
+        blob ? (uint32_t)(blob->x1 - blob->x0) * (uint32_t)(blob->y1 - blob->y0) : 0;
     return box == 0 ? 0 : limit_q15(fraction(blob->area, box, 15));
 }
 
 uint16_t pel_blob_compactness_q15(const pel_blob *blob)
 {
-    const uint64_t square = (uint64_t)blob->perimeter * blob->perimeter;
+    const uint64_t square = blob ? (uint64_t)blob->perimeter * blob->perimeter : 0;
     int shift;
     uint32_t part_q16;
 

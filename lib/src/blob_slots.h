@@ -2,6 +2,7 @@
 #ifndef PEL_BLOB_SLOTS_H
 #define PEL_BLOB_SLOTS_H
 
+#include "overlap.h"
 #include "pel/blobs.h"
 
 /* Its sums grow to the bounds that pel_blobs_begin enforces: area <= 2^22, sum_x, sum_y < 2^32. */
@@ -30,11 +31,24 @@ struct pel_blob_color {
 typedef struct pel_blob_slot slot;
 
 /* Instead of a slot, a run's blob may be NO_BLOB (joined nothing yet), or LOST + its label - 1. */
-enum { LOST = 0xFF00, NO_BLOB = 0xFFFF, END = 0xFFFF };
+#define LOST 0xFF00u
+#define NO_BLOB 0xFFFFu
+
+/* Ends the lists of slots. */
+#define END 0xFFFFu
 
 /* What lies behind the last run of a row: every search stops here. */
 enum { BEYOND = 0x7FFF };
 
 enum { STATE_IDLE, STATE_ROWS };
+
+/* Whether some memory overlaps what a finder writes: itself, its working memory and its results. */
+static inline int pel_i_blobs_write(const pel_blobs *b, const pel_blobs_config *c,
+                                    const void *memory, size_t bytes)
+{
+    return pel_i_overlap(b, sizeof *b, memory, bytes) ||
+           pel_i_overlap(c->work, c->work_bytes, memory, bytes) ||
+           pel_i_overlap(c->results, c->results_max * sizeof *c->results, memory, bytes);
+}
 
 #endif

@@ -433,6 +433,17 @@ static void open_late(pel_blobs *b, size_t late, const uint8_t *labels, const pe
     }
 }
 
+static pel_status check_pixels(const pel_blobs *b, const pel_crow *pixels)
+{
+    const pel_status status = pel_crow_check(pixels);
+
+    if (status != PEL_OK) {
+        return status;
+    }
+    return pel_colour_width(pixels->format, pixels->width) == b->config.width ? PEL_OK
+                                                                              : PEL_ERR_FORMAT;
+}
+
 pel_status pel_blobs_row(pel_blobs *b, uint16_t y, const uint8_t *labels, const pel_crow *pixels)
 {
     uint32_t lost_before;
@@ -445,13 +456,13 @@ pel_status pel_blobs_row(pel_blobs *b, uint16_t y, const uint8_t *labels, const 
     if (b->state != STATE_ROWS || y != b->next_row || y >= b->config.height) {
         return PEL_ERR_ORDER;
     }
+    if (pel_i_blobs_write(b, &b->config, labels, b->config.width)) {
+        return PEL_ERR_ARG;
+    }
     if (b->colors) {
-        const pel_status status = pel_crow_check(pixels);
+        const pel_status status = check_pixels(b, pixels);
         if (status != PEL_OK) {
             return status;
-        }
-        if (pel_colour_width(pixels->format, pixels->width) != b->config.width) {
-            return PEL_ERR_FORMAT;
         }
     }
     lost_before = b->counts.lost_opens;

@@ -1,5 +1,6 @@
 /* A frame: its start and the loop over its rows. */
 #include "blob_slots.h"
+#include "classifier.h"
 #include "format.h"
 #include "overlap.h"
 #include "pel/blobs.h"
@@ -9,25 +10,48 @@ size_t pel_blobs_bytes(uint16_t width, uint16_t open_max, unsigned measure)
     return PEL_BLOBS_BYTES(width, open_max, measure);
 }
 
-static pel_status check_config(const pel_blobs_config *c)
+/* PEL_BLOBS_BYTES, also where size_t has 16 bits and the macro would wrap. */
+static uint32_t bytes_needed(const pel_blobs_config *c)
+{
+    return c->open_max * (uint32_t)PEL_BLOBS_SLOT_BYTES(c->measure) + 12 * ((uint32_t)c->width + 1);
+}
+
+/* Elongation comes from the moments. */
+static int filter_fits(const pel_blob_filter *f, unsigned measure)
+{
+    return !f || (f->elongation_min_q15 | f->elongation_max_q15) == 0 ||
+           (measure & PEL_MEASURE_MOMENTS) != 0;
+}
+
+/* The finder, the working memory and the results are three different places. */
+static int places_fit(const pel_blobs *b, const pel_blobs_config *c)
+{
+    const size_t results_bytes = c->results_max * sizeof *c->results;
+
+    return !pel_i_overlap(c->work, c->work_bytes, c->results, results_bytes) &&
+           !pel_i_overlap(b, sizeof *b, c->work, c->work_bytes) &&
+           !pel_i_overlap(b, sizeof *b, c->results, results_bytes);
+}
+
+static pel_status check_config(const pel_blobs *b, const pel_blobs_config *c)
 {
     const uint64_t sum_limit = (uint64_t)1 << 33; /* 2 * sum_x < width * width * height */
     const uint64_t pixels = (uint64_t)c->width * c->height;
 
     if (!c->work || (uintptr_t)c->work % 8 != 0 || (!c->results && c->results_max > 0) ||
         (c->connectivity != 0 && c->connectivity != 4 && c->connectivity != 8) ||
-        c->measure > PEL_MEASURE_ALL || c->open_max == 0 || c->open_max > PEL_BLOBS_OPEN_LIMIT) {
+        c->measure > PEL_MEASURE_ALL || c->open_max == 0 || c->open_max > PEL_BLOBS_OPEN_LIMIT ||
+        !filter_fits(c->filter, c->measure)) {
         return PEL_ERR_ARG;
     }
     if (pixels == 0 || c->width > PEL_SIDE_MAX || c->height > PEL_SIDE_MAX ||
         pixels * c->width > sum_limit || pixels * c->height > sum_limit) {
         return PEL_ERR_RANGE;
     }
-    if (pel_i_overlap(c->work, c->work_bytes, c->results, c->results_max * sizeof *c->results)) {
+    if (!places_fit(b, c)) {
         return PEL_ERR_ARG;
     }
-    return c->work_bytes < pel_blobs_bytes(c->width, c->open_max, c->measure) ? PEL_ERR_SPACE
-                                                                              : PEL_OK;
+    return c->work_bytes < bytes_needed(c) ? PEL_ERR_SPACE : PEL_OK;
 }
 
 /* Takes `count` elements from the working memory. The elements with the strictest alignment are taken
@@ -71,7 +95,7 @@ static void free_all_slots(pel_blobs *b)
 pel_status pel_blobs_begin(pel_blobs *b, const pel_blobs_config *config)
 {
     const pel_blobs_counts no_counts = {0, 0, 0, 0, 0, 0, 0, 0};
-    const pel_status status = b && config ? check_config(config) : PEL_ERR_ARG;
+    const pel_status status = b && config ? check_config(b, config) : PEL_ERR_ARG;
 
     if (status != PEL_OK) {
         return status;
@@ -106,22 +130,21 @@ pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
         config->height != pel_colour_height(view->format, view->height)) {
         return PEL_ERR_RANGE;
     }
-    if (pel_i_view_overlaps(view, labels, config->width)) {
+    row = pel_cview_row(view, 0); /* what this row is refused for, all are */
+    status = pel_i_classify_check(classifier, &row, labels);
+    if (status != PEL_OK) {
+        return status;
+    }
+    if (pel_i_view_overlaps(view, labels, config->width) ||
+        pel_i_blobs_write(b, config, labels, config->width)) {
         return PEL_ERR_ARG;
     }
-    row = pel_cview_row(view, 0);
-    status = pel_classify_row(classifier, &row, labels); /* if it cannot do this row, it can none */
-    if (status == PEL_OK) {
-        status = pel_blobs_begin(b, config);
-    }
+    status = pel_blobs_begin(b, config);
     for (uint16_t y = 0; y < config->height && status >= 0; y++) {
         row = pel_cview_row(view, y);
-        status = pel_classify_row(classifier, &row, labels);
-        row.range =
-            classifier->range; /* in which RGB is read: the mean colour is that of the classes */
-        if (status >= 0) {
-            status = pel_blobs_row(b, y, labels, &row);
-        }
+        (void)pel_classify_row(classifier, &row, labels);
+        row.range = classifier->range; /* RGB is read in the range of the classes */
+        status = pel_blobs_row(b, y, labels, &row);
     }
     return status < 0 ? status : pel_blobs_end(b, count);
 }

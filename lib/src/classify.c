@@ -1,5 +1,6 @@
 #include "pel/classify.h"
 
+#include "classifier.h"
 #include "format.h"
 #include "row/row.h"
 
@@ -88,11 +89,10 @@ static void classify_in_chunks(const pel_classifier *classifier, const pel_crow 
     }
 }
 
-pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *row, uint8_t *labels)
+pel_status pel_i_classify_check(const pel_classifier *classifier, const pel_crow *row,
+                                const uint8_t *labels)
 {
-    const pel_format_info *info;
     pel_status status = classifier && labels ? pel_crow_check(row) : PEL_ERR_ARG;
-    uint16_t width;
 
     if (status == PEL_OK) {
         status = check_classifier(classifier);
@@ -100,14 +100,25 @@ pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *ro
     if (status != PEL_OK) {
         return status;
     }
-    info = pel_i_format(row->format);
-    width = pel_colour_width(row->format, row->width);
-    if (pel_i_crow_overlaps(row, labels, width)) {
+    if (pel_i_crow_overlaps(row, labels, pel_colour_width(row->format, row->width))) {
         return PEL_ERR_ARG;
     }
-    if (info->layout == PEL_LAYOUT_PAIRS && row->range != classifier->range) {
-        return PEL_ERR_FORMAT;
+    return pel_i_format(row->format)->layout == PEL_LAYOUT_PAIRS && row->range != classifier->range
+               ? PEL_ERR_FORMAT
+               : PEL_OK;
+}
+
+pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *row, uint8_t *labels)
+{
+    const pel_status status = pel_i_classify_check(classifier, row, labels);
+    const pel_format_info *info;
+    uint16_t width;
+
+    if (status != PEL_OK) {
+        return status;
     }
+    info = pel_i_format(row->format);
+    width = pel_colour_width(row->format, row->width);
     if (info->layout == PEL_LAYOUT_PAIRS && classifier->boxes) {
         const pel_row_boxes boxes = {classifier->boxes->y, classifier->boxes->u,
                                      classifier->boxes->v};

@@ -98,11 +98,22 @@ static uint32_t plane_row_bytes(const pel_format_info *info, unsigned plane, uin
     return plane > 0 && info->planes == 3 ? (uint32_t)width / 2 : row_bytes(info, width);
 }
 
-static pel_status check_stride(const pel_format_info *info, int32_t stride_bytes, uint16_t width)
+/* Whether rows of `bytes` fit the stride, and whether the distance from the first row to behind the last
+ * fits 32 bits. */
+static int stride_fits(int32_t stride_bytes, uint32_t bytes, uint16_t rows)
 {
-    const int32_t least = (int32_t)row_bytes(info, width);
-    const int upside_down = stride_bytes <= -least && info->planes == 1;
-    return stride_bytes >= least || upside_down ? PEL_OK : PEL_ERR_RANGE;
+    const uint32_t reach = stride_bytes < 0 ? 0u - (uint32_t)stride_bytes : (uint32_t)stride_bytes;
+    return reach >= bytes && (uint64_t)reach * rows <= INT32_MAX;
+}
+
+static pel_status check_stride(const pel_format_info *info, int32_t stride_bytes, uint16_t width,
+                               uint16_t height)
+{
+    const int upside_down = stride_bytes < 0;
+    return stride_fits(stride_bytes, row_bytes(info, width), height) &&
+                   !(upside_down && info->planes > 1)
+               ? PEL_OK
+               : PEL_ERR_RANGE;
 }
 
 pel_status pel_cview_init(const uint8_t *pixels, pel_format format, pel_range range, uint16_t width,
@@ -120,7 +131,7 @@ pel_status pel_cview_init(const uint8_t *pixels, pel_format format, pel_range ra
         stride_bytes = (int32_t)row_bytes(info, width);
     }
     if (status == PEL_OK) {
-        status = check_stride(info, stride_bytes, width);
+        status = check_stride(info, stride_bytes, width, height);
     }
     if (status != PEL_OK) {
         return status;
@@ -159,8 +170,11 @@ pel_status pel_view_init(uint8_t *pixels, pel_format format, pel_range range, ui
 
 pel_cview pel_view_to_read(const pel_view *view)
 {
-    pel_cview out;
+    pel_cview out = {{NULL, NULL, NULL}, {0, 0, 0}, 0, 0, PEL_GRAY8, PEL_RANGE_FULL};
 
+    if (!view) {
+        return out;
+    }
     for (unsigned p = 0; p < 3; p++) {
         out.plane[p] = view->plane[p];
         out.stride_bytes[p] = view->stride_bytes[p];
@@ -182,11 +196,10 @@ pel_status pel_cview_check(const pel_cview *view)
     }
     status = check_size(info, view->width, view->height);
     for (unsigned p = 0; p < info->planes && status == PEL_OK; p++) {
-        const int32_t stride = view->stride_bytes[p];
-        const uint32_t reach = stride < 0 ? 0u - (uint32_t)stride : (uint32_t)stride;
         if (!view->plane[p]) {
             status = PEL_ERR_ARG;
-        } else if (reach < plane_row_bytes(info, p, view->width)) {
+        } else if (!stride_fits(view->stride_bytes[p], plane_row_bytes(info, p, view->width),
+                                p == 0 ? view->height : view->height / 2)) {
             status = PEL_ERR_RANGE;
         }
     }

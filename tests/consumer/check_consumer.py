@@ -137,6 +137,11 @@ def check_pkg_config(out, prefix, classes):
     program = out / f"pkg_config{classes}"
     if step("pkg-config: compile", CC, HERE / "user.c", "-o", program, *flags.stdout.split()):
         check_output(f"pkg-config, {classes} classes", program, user_line(classes))
+    if classes == 8:
+        wrong = run(CC, HERE / "user.c", "-DPEL_CLASS_MAX=16", "-o", program,
+                    *flags.stdout.split())
+        check(wrong.returncode != 0 and "pel_boxes_set_16" in wrong.stdout,
+              "a program for 16 classes does not link with a library for 8", wrong.stdout)
 
 
 def check_installed_command(prefix):

@@ -278,6 +278,48 @@ static void test_sorting(void)
     pel_blobs_sort(NULL, 3);
 }
 
+/* Without moments there is no axis: the answers are those of a disc, and a filter that asks for more is
+ * refused. */
+static void test_shapes_that_were_not_measured(void)
+{
+    static uint64_t words[PEL_BLOBS_WORDS(8, 8, PEL_MEASURE_ALL)];
+    const pel_blob_filter filter = {.elongation_min_q15 = 1};
+    pel_blobs_config settings = {.width = 8, .height = 8, .open_max = 8};
+    pel_blobs finder;
+    pel_blob bar = {0};
+
+    bar.area = 12;
+    bar.sum_x = 66;
+    bar.x1 = 12;
+    bar.y1 = 1;
+    TEST_ASSERT_EQUAL_UINT16(32767, pel_blob_roundness_q15(&bar));
+    TEST_ASSERT_EQUAL_UINT16(0, pel_blob_elongation_q15(&bar));
+    TEST_ASSERT_EQUAL_INT16(0, pel_blob_angle_turn16(&bar));
+    TEST_ASSERT_EQUAL_UINT16(0, pel_blob_compactness_q15(&bar));
+
+    settings.work = words;
+    settings.work_bytes = sizeof words;
+    settings.filter = &filter;
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_blobs_begin(&finder, &settings));
+    settings.measure = PEL_MEASURE_MOMENTS;
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_blobs_begin(&finder, &settings));
+}
+
+static void test_nothing_is_known_of_no_blob(void)
+{
+    int32_t x = 5, y = 5;
+
+    pel_blob_centroid_q16(NULL, &x, &y);
+    TEST_ASSERT_EQUAL_INT32(0, x);
+    TEST_ASSERT_EQUAL_INT32(0, y);
+    pel_blob_centroid_q16(NULL, NULL, NULL);
+    TEST_ASSERT_EQUAL_INT16(0, pel_blob_angle_turn16(NULL));
+    TEST_ASSERT_EQUAL_UINT16(32767, pel_blob_roundness_q15(NULL));
+    TEST_ASSERT_EQUAL_UINT16(0, pel_blob_elongation_q15(NULL));
+    TEST_ASSERT_EQUAL_UINT16(0, pel_blob_density_q15(NULL));
+    TEST_ASSERT_EQUAL_UINT16(0, pel_blob_compactness_q15(NULL));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -293,5 +335,7 @@ int main(void)
     RUN_TEST(test_density_merge_on_one_row);
     RUN_TEST(test_margin_merge);
     RUN_TEST(test_sorting);
+    RUN_TEST(test_shapes_that_were_not_measured);
+    RUN_TEST(test_nothing_is_known_of_no_blob);
     return UNITY_END();
 }

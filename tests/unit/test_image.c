@@ -379,6 +379,23 @@ static void test_rows_that_cannot_be_are_refused(void)
     TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_crow_check(NULL));
 }
 
+/* The way from the first row to the last fits 32 bits, whatever the stride. */
+static void test_strides_that_reach_too_far_are_refused(void)
+{
+    const uint8_t *const pixels = (const uint8_t *)"";
+    pel_cview view;
+
+    TEST_ASSERT_EQUAL_INT(
+        PEL_OK, pel_cview_init(pixels, PEL_GRAY8, PEL_RANGE_FULL, 8, 4, INT32_MAX / 4, &view));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_RANGE, pel_cview_init(pixels, PEL_GRAY8, PEL_RANGE_FULL, 8, 4,
+                                                        INT32_MAX / 4 + 1, &view));
+    TEST_ASSERT_EQUAL_INT(
+        PEL_ERR_RANGE, pel_cview_init(pixels, PEL_GRAY8, PEL_RANGE_FULL, 8, 4, INT32_MIN, &view));
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_cview_check(&view));
+    view.stride_bytes[0] = -(INT32_MAX / 4) - 1;
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_RANGE, pel_cview_check(&view));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -406,5 +423,6 @@ int main(void)
     RUN_TEST(test_rows_of_shared_chroma);
     RUN_TEST(test_rows_of_a_mosaic_are_pairs);
     RUN_TEST(test_rows_that_cannot_be_are_refused);
+    RUN_TEST(test_strides_that_reach_too_far_are_refused);
     return UNITY_END();
 }

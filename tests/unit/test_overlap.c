@@ -150,6 +150,92 @@ static void test_results_do_not_lie_in_the_working_memory(void)
     TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_blobs_begin(&blobs, &config));
 }
 
+/* Labels and pixels are read while the finder writes its working memory and its results. */
+static void test_a_finder_does_not_read_what_it_writes(void)
+{
+    static uint64_t work[PEL_BLOBS_WORDS(8, 8, 0)];
+    static pel_blob results[2];
+    static pel_boxes boxes;
+    const pel_classifier classifier = {&boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL};
+    pel_blobs_config config = {0};
+    pel_blobs blobs = {0};
+    pel_cview view;
+    uint32_t count;
+
+    config.width = 8;
+    config.height = 1;
+    config.open_max = 8;
+    config.work = work;
+    config.work_bytes = sizeof work;
+    config.results = results;
+    config.results_max = 2;
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_blobs_begin(&blobs, &config));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_blobs_row(&blobs, 0, (uint8_t *)work + 16, NULL));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_blobs_row(&blobs, 0, (uint8_t *)results + 120, NULL));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_blobs_row(&blobs, 0, (uint8_t *)&blobs, NULL));
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_blobs_row(&blobs, 0, memory, NULL));
+
+    pel_cview_init(memory, PEL_YUYV, PEL_RANGE_FULL, 8, 1, 0, &view);
+    TEST_ASSERT_EQUAL_INT(
+        PEL_ERR_ARG, pel_blobs_frame(&blobs, &config, &classifier, &view, (uint8_t *)work, &count));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_blobs_frame(&blobs, &config, &classifier, &view,
+                                                       (uint8_t *)results, &count));
+}
+
+static void test_the_finder_itself_lies_elsewhere(void)
+{
+    static uint64_t work[PEL_BLOBS_WORDS(8, 8, 0)];
+    static union {
+        pel_blobs blobs;
+        pel_blob results[8];
+        uint64_t words[64];
+    } place;
+    pel_blobs_config config = {0};
+
+    config.width = config.height = 8;
+    config.open_max = 8;
+    config.work = work;
+    config.work_bytes = sizeof work;
+    config.results = place.results;
+    config.results_max = 8;
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_blobs_begin(&place.blobs, &config));
+    config.results_max = 0;
+    config.results = NULL;
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_blobs_begin(&place.blobs, &config));
+    config.work = place.words;
+    config.work_bytes = sizeof place.words;
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_blobs_begin(&place.blobs, &config));
+}
+
+/* Refused means that nothing was written, scratch included. */
+static void test_a_refused_frame_leaves_the_labels_alone(void)
+{
+    static uint64_t work[PEL_BLOBS_WORDS(8, 8, 0)];
+    static pel_boxes boxes;
+    pel_classifier classifier = {&boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL};
+    pel_blobs_config config = {0};
+    pel_blobs blobs = {0};
+    pel_cview view;
+    uint32_t count = 77;
+
+    config.width = 8;
+    config.height = 1;
+    config.open_max = 8;
+    config.work = work;
+    config.work_bytes = sizeof work - 8;
+    pel_cview_init(memory, PEL_YUYV, PEL_RANGE_FULL, 8, 1, 0, &view);
+    TEST_ASSERT_EQUAL_INT(
+        PEL_ERR_SPACE, pel_blobs_frame(&blobs, &config, &classifier, &view, memory + 64, &count));
+    config.work_bytes = sizeof work;
+    classifier.range = PEL_RANGE_LIMITED;
+    TEST_ASSERT_EQUAL_INT(
+        PEL_ERR_FORMAT, pel_blobs_frame(&blobs, &config, &classifier, &view, memory + 64, &count));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG,
+                          pel_blobs_frame(&blobs, &config, NULL, &view, memory + 64, &count));
+    assert_untouched();
+    TEST_ASSERT_EQUAL_UINT32(77, count);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -159,5 +245,8 @@ int main(void)
     RUN_TEST(test_labels_do_not_overwrite_their_row);
     RUN_TEST(test_frames_do_not_overwrite_themselves);
     RUN_TEST(test_results_do_not_lie_in_the_working_memory);
+    RUN_TEST(test_a_finder_does_not_read_what_it_writes);
+    RUN_TEST(test_the_finder_itself_lies_elsewhere);
+    RUN_TEST(test_a_refused_frame_leaves_the_labels_alone);
     return UNITY_END();
 }

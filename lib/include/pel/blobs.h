@@ -77,7 +77,8 @@ enum {
 };
 
 /* The centroid (sum_x / area, sum_y / area) in 1/65536 pixel, rounded to nearest, halves upward.
- * (0, 0) is the centre of the first pixel. An area of 0 gives 0. */
+ * (0, 0) is the centre of the first pixel. No area gives 0; a NULL output is left out. Here and below a
+ * NULL blob is one of which nothing is known. */
 void pel_blob_centroid_q16(const pel_blob *blob, int32_t *x_q16, int32_t *y_q16);
 
 /*
@@ -91,7 +92,8 @@ int16_t pel_blob_angle_turn16(const pel_blob *blob);
 /*
  * Short axis / long axis of the ellipse with the same second moments, in q15: 32767 for a disc, a
  * square or a single pixel, 0 for a straight line one pixel thin; square root of the ratio of the
- * eigenvalues of the covariance. Within 4 / 32768. Needs PEL_MEASURE_MOMENTS.
+ * eigenvalues of the covariance. Within 4 / 32768. Needs PEL_MEASURE_MOMENTS; 32767
+ * without.
  */
 uint16_t pel_blob_roundness_q15(const pel_blob *blob);
 
@@ -111,7 +113,8 @@ uint16_t pel_blob_compactness_q15(const pel_blob *blob);
 /*
  * Which blobs count. Every bound belongs to the allowed interval; 0 in a `max` means no bound, so a
  * zeroed filter lets everything pass. Aspect is box width / box height, compared exactly; density and
- * elongation are compared as the functions above give them. Elongation needs PEL_MEASURE_MOMENTS and
+ * elongation are compared as the functions above give them. Elongation needs PEL_MEASURE_MOMENTS (without
+ * it pel_blobs_begin refuses such a filter) and
  * costs two square roots per blob; the others cost nearly nothing.
  */
 typedef struct pel_blob_filter {
@@ -121,7 +124,7 @@ typedef struct pel_blob_filter {
     uint32_t aspect_min_q16, aspect_max_q16;   /* 65536 = as wide as high */
     uint16_t density_min_q15, density_max_q15; /* area / box */
     uint16_t elongation_min_q15, elongation_max_q15;
-    uint32_t class_mask;                     /* bit c: class c may pass; 0 = all */
+    uint32_t class_mask;                     /* bit c: class c < 32 may pass; 0 = all */
     uint16_t roi_x0, roi_x1, roi_y0, roi_y1; /* the centroid must lie inside, half-open; all 0 =
                                                       no region of interest */
 } pel_blob_filter;
@@ -130,6 +133,8 @@ typedef struct pel_blob_filter {
 int pel_blob_passes(const pel_blob *blob, const pel_blob_filter *filter);
 
 /* ---- Finding blobs ------------------------------------------------------------------------- */
+
+#define pel_blobs_frame PEL_FOR_CLASSES(pel_blobs_frame)
 
 /* A run: the stretch x0 <= x < x1 of one row that has one label. */
 typedef struct pel_run {
@@ -183,7 +188,8 @@ typedef struct pel_blobs_config {
     void *work;           /* PEL_BLOBS_BYTES(width, open_max, measure), aligned to 8 bytes; in use
                              from begin to end, may be shared between frames and finders */
     size_t work_bytes;
-    const pel_blob_filter *filter; /* what counts as a blob; NULL: everything. Not copied. */
+    const pel_blob_filter *filter; /* what counts as a blob; NULL: everything. Not copied:
+                                      it stays as it is until the end */
     pel_blob *results; /* the largest blobs, for pel_blobs_end; may be NULL if results_max
                                       is 0. 64 bytes each */
     uint32_t results_max;
@@ -207,7 +213,8 @@ typedef struct pel_blobs_counts {
     uint16_t open_peak;  /* the most blobs that were open at once: what open_max needs to be */
 } pel_blobs_counts;
 
-/* The finder. The caller places it (about 150 bytes) and reads `counts`; the rest is private. */
+/* The finder. The caller places it (120 bytes on 32-bit machines), zeroes it unless pel_blobs_begin is the
+ * first to see it, and reads `counts`; the rest is private. */
 typedef struct pel_blobs {
     pel_blobs_config config;
     pel_blobs_counts counts;
@@ -231,8 +238,8 @@ typedef struct pel_blobs {
 /*
  * Starts a frame; any frame in progress is forgotten. The config is copied.
  *
- * PEL_ERR_ARG: null pointer, misaligned work, work that overlaps the results, connectivity not 0, 4, 8,
- * unknown measure bits, open_max out of range. PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX, or so large that a 32-bit sum could
+ * PEL_ERR_ARG: null pointer, misaligned work, finder, work and results that overlap, connectivity not 0,
+ * 4, 8, unknown measure bits, open_max out of range, a filter for what is not measured. PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX, or so large that a 32-bit sum could
  * overflow (width * width * height or width * height * height over 2^33: 1920 x 1080 and 2048 x 2048
  * are allowed, 2592 x 1944 is not). PEL_ERR_SPACE: work_bytes too small.
  */
@@ -244,8 +251,8 @@ pel_status pel_blobs_begin(pel_blobs *blobs, const pel_blobs_config *config);
  * may be overwritten afterwards.
  *
  * PEL_TRUNCATED: done, but a blob of this row was lost for want of open blobs. PEL_ERR_ORDER: not
- * the row that is due; the frame goes on unharmed. PEL_ERR_ARG: null pointer. PEL_ERR_FORMAT: the
- * pixels have another width.
+ * the row that is due; the frame goes on unharmed. PEL_ERR_ARG: null pointer, or labels in memory that the
+ * finder writes. PEL_ERR_FORMAT: the pixels have another width; others as of pel_crow_check.
  */
 pel_status pel_blobs_row(pel_blobs *blobs, uint16_t y, const uint8_t *labels,
                          const pel_crow *pixels);

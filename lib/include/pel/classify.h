@@ -20,6 +20,11 @@
 extern "C" {
 #endif
 
+#define pel_boxes_set PEL_FOR_CLASSES(pel_boxes_set)
+#define pel_classify_row PEL_FOR_CLASSES(pel_classify_row)
+#define pel_classify_color PEL_FOR_CLASSES(pel_classify_color)
+#define pel_classify_frame PEL_FOR_CLASSES(pel_classify_frame)
+
 /* The box of one class in YCbCr; both ends belong to it. A box with a min over its max is empty. */
 typedef struct pel_color_box {
     uint8_t y_min, y_max;

@@ -16,12 +16,17 @@
 #define PEL_CLASS_MAX 8
 #endif
 
+/* PEL_FOR_CLASSES gives a function a name of its own for each choice, so that a program and a library
+ * that do not agree fail to link instead of reading each other's tables wrongly. */
 #if PEL_CLASS_MAX == 8
 typedef uint8_t pel_class_mask;
+#define PEL_FOR_CLASSES(name) name
 #elif PEL_CLASS_MAX == 16
 typedef uint16_t pel_class_mask;
+#define PEL_FOR_CLASSES(name) name##_16
 #elif PEL_CLASS_MAX == 32
 typedef uint32_t pel_class_mask;
+#define PEL_FOR_CLASSES(name) name##_32
 #else
 #error "PEL_CLASS_MAX must be 8, 16 or 32"
 #endif

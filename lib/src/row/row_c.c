@@ -1,6 +1,8 @@
 /* All row kernels in plain C: the truth that every faster version must equal. */
 #include "row/row.h"
 
+#include "pel/fixed.h"
+
 /* ---- Reading pixels ------------------------------------------------------------------------ */
 
 void pel_row_read_pairs(const pel_row_pairs *src, uint16_t x, uint16_t count, uint8_t *y,
@@ -64,29 +66,24 @@ void pel_row_read_bayer(const uint8_t *even, const uint8_t *odd, uint16_t count,
  *          U = 128 + P / 1772, P = 886 B - 299 R - 587 G, |P| <= 225930
  *          V = 128 + Q / 1402, Q = 701 R - 587 G - 114 B, |Q| <= 178755
  * limited: Y = 16 + 73 S / 85000, U = 128 + 56 P / 112965, V = 128 + 112 Q / 178755
- * The largest numerator is 112 * 225930 + 257 * 112965 < 2^26.
+ * The largest numerator is 224 * 178755 + 257 * 178755 < 2^27.
  */
-static uint8_t limit_255(uint32_t value)
-{
-    return (uint8_t)(value > 255 ? 255 : value);
-}
-
 static uint8_t luma(uint32_t s, int limited)
 {
-    return limited ? (uint8_t)((73 * s + 16 * 85000u + 42500) / 85000)
+    return limited ? (uint8_t)((73 * s + 16 * UINT32_C(85000) + 42500) / 85000)
                    : (uint8_t)((s + 500) / 1000);
 }
 
 static uint8_t chroma_blue(int32_t p, int limited)
 {
-    return limited ? (uint8_t)((uint32_t)(112 * p + 257 * 112965) / (2 * 112965u))
-                   : limit_255((uint32_t)(p + 128 * 1772 + 886) / 1772);
+    return limited ? (uint8_t)((uint32_t)(112 * p + INT32_C(257) * 112965) / (2 * UINT32_C(112965)))
+                   : pel_saturate_u8((p + INT32_C(128) * 1772 + 886) / 1772);
 }
 
 static uint8_t chroma_red(int32_t q, int limited)
 {
-    return limited ? (uint8_t)((uint32_t)(224 * q + 257 * 178755) / (2 * 178755u))
-                   : limit_255((uint32_t)(q + 128 * 1402 + 701) / 1402);
+    return limited ? (uint8_t)((uint32_t)(224 * q + INT32_C(257) * 178755) / (2 * UINT32_C(178755)))
+                   : pel_saturate_u8((q + INT32_C(128) * 1402 + 701) / 1402);
 }
 
 void pel_row_rgb_to_ycbcr(const uint8_t *rgb, uint16_t count, int limited, uint8_t *y, uint8_t *u,
@@ -104,11 +101,6 @@ void pel_row_rgb_to_ycbcr(const uint8_t *rgb, uint16_t count, int limited, uint8
     }
 }
 
-static uint8_t saturate(int32_t value)
-{
-    return (uint8_t)(value < 0 ? 0 : value > 255 ? 255 : value);
-}
-
 /* floor(n / d) for d > 0; *rest = what is left, 0..d-1. */
 static int32_t floor_div(int32_t n, int32_t d, int32_t *rest)
 {
@@ -122,11 +114,10 @@ static int32_t floor_div(int32_t n, int32_t d, int32_t *rest)
     return quotient;
 }
 
-/* n / d to nearest, halves upward, limited to 0..255. d is even. */
+/* n / d to nearest, limited to 0..255. |n| < 2^30. */
 static uint8_t round_div_u8(int32_t n, int32_t d)
 {
-    int32_t rest;
-    return saturate(floor_div(n + d / 2, d, &rest));
+    return pel_saturate_u8(pel_round_div(n, d));
 }
 
 /* y, cb, cr: Y 0..255, U - 128, V - 128. The largest numerator is 209599 * 128 + 101004 * 128 +
@@ -145,18 +136,18 @@ static void full_to_rgb(int32_t y, int32_t cb, int32_t cr, uint8_t *rgb)
  */
 static void limited_to_rgb(int32_t y, int32_t cb, int32_t cr, uint8_t *rgb)
 {
-    int32_t luma_rest, chroma_rest, fraction;
+    const int32_t one = INT32_C(73) * 13148800; /* < 2^30 */
+    int32_t luma_rest, chroma_rest, fraction, carry;
     const int32_t luma_whole = floor_div(85 * (y - 16), 73, &luma_rest);
     const int32_t chroma_whole = floor_div(10689549 * cr + 5151204 * cb, 13148800, &chroma_rest);
-    const int32_t one = 73 * 13148800; /* < 2^30 */
 
     fraction = luma_rest * 13148800 - chroma_rest * 73; /* between -one and one */
-    rgb[0] = round_div_u8(85 * 22400 * (y - 16) + 35751 * 73 * cr, 73 * 22400);
-    rgb[1] = saturate(luma_whole - chroma_whole +
-                      (fraction < -(one / 2) ? -1
-                       : fraction >= one / 2 ? 1
-                                             : 0));
-    rgb[2] = round_div_u8(85 * 11200 * (y - 16) + 22593 * 73 * cb, 73 * 11200);
+    carry = fraction >= one / 2 ? 1 : fraction < -(one / 2) ? -1 : 0;
+    rgb[0] = round_div_u8(INT32_C(85) * 22400 * (y - 16) + INT32_C(35751) * 73 * cr,
+                          INT32_C(73) * 22400);
+    rgb[1] = pel_saturate_u8(luma_whole - chroma_whole + carry);
+    rgb[2] = round_div_u8(INT32_C(85) * 11200 * (y - 16) + INT32_C(22593) * 73 * cb,
+                          INT32_C(73) * 11200);
 }
 
 void pel_row_ycbcr_to_rgb(const uint8_t *y, const uint8_t *u, const uint8_t *v, unsigned step,
