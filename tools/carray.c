@@ -12,6 +12,26 @@ typedef struct printer {
     size_t done;
 } printer;
 
+/* The words of C and C++ and of the headers that the source needs. */
+static int is_taken(const char *name)
+{
+    static const char taken[] =
+        " alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t "
+        "char32_t char8_t class co_await co_return co_yield compl concept const const_cast "
+        "consteval constexpr constinit continue decltype default delete do double dynamic_cast "
+        "else enum explicit export extern false float for friend goto if inline int long mutable "
+        "namespace new noexcept not not_eq nullptr operator or or_eq private protected public "
+        "register reinterpret_cast requires restrict return short signed sizeof static "
+        "static_assert static_cast struct switch template this thread_local throw true try "
+        "typedef typeid typename typeof typeof_unqual union unsigned using virtual void volatile "
+        "wchar_t while xor xor_eq _Alignas _Alignof _Atomic _Bool _Complex _Generic _Imaginary "
+        "_Noreturn _Static_assert _Thread_local uint8_t pel_color_box ";
+    char word[NAME_MAX_BYTES + 3];
+
+    snprintf(word, sizeof word, " %s ", name);
+    return strstr(taken, word) != NULL;
+}
+
 int carray_name_ok(const char *name)
 {
     static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_";
@@ -19,7 +39,8 @@ int carray_name_ok(const char *name)
 
     return length > 0 && length <= NAME_MAX_BYTES && strchr(letters, name[0]) != NULL &&
            strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789") ==
-               length;
+               length &&
+           !is_taken(name);
 }
 
 static void print_bytes(void *user, const uint8_t *bytes, size_t count)

@@ -6,7 +6,7 @@
 
 #include <pel.h>
 
-/* Whether `name` can name a variable in C and C++. */
+/* Whether `name` can name a variable in C and C++: not one of their keywords either. */
 int carray_name_ok(const char *name);
 
 /* Writes the frame's bytes, without padding, as `const uint8_t NAME[]` with NAME_width and

@@ -2,7 +2,8 @@
  * Class files: CMVision's text format, as it is, plus lines of ours that CMVision skips.
  *
  *     [Colors]
- *     (255,128,  0) 0.5000 5 orange          display colour, merge density, expected number, name
+ *     (255,128,  0) 0.5000 5 orange          display colour, merge density (applied on demand
+ *                                            only), expected number, name
  *
  *     [Thresholds]
  *     (  40: 200,  90:120, 150:200)          Y, U, V, both ends included, in the order of [Colors]
@@ -25,7 +26,8 @@ enum { CLASS_NAME_MAX = 63 };
 typedef struct class_entry {
     char name[CLASS_NAME_MAX + 1];
     uint8_t red, green, blue; /* display colour */
-    double merge;             /* CMVision's merge density; 0 = do not merge */
+    double merge;             /* CMVision's merge density; 0 = do not merge. Read and written; only
+                                 `pel blobs --merge-classes` applies it */
     int expected;             /* CMVision's expected number of blobs */
     pel_color_box box;
 } class_entry;
@@ -52,8 +54,12 @@ int classes_read_stream(FILE *stream, const char *name, classes *list);
 /* Writes the text format. 0, or -1 after a message. */
 int classes_write(const char *path, const classes *list);
 
-/* Writes a CMVision 2 table: "TMAP\nYUV8\n16 64 64\n" and 65536 labels, each cell classified at its
- * middle. 0, or -1 after a message. */
+/*
+ * Writes a CMVision 2 table: "TMAP\nYUV8\n16 64 64\n" and 65536 labels, each cell classified at its
+ * middle. A table is a full-range one, whatever the classes are: for those of limited range each
+ * middle is converted first, Y' = 16 + 219 Y / 255 and C' = 128 + 224 (C - 128) / 255, rounded,
+ * halves upward. 0, or -1 after a message.
+ */
 int classes_write_tm(const char *path, const classes *list);
 
 void classes_free(classes *list);

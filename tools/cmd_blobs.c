@@ -20,7 +20,11 @@ static const char help[] =
     "\n"
     "INPUT is a PPM, PGM, PNG, JPEG or YUV4MPEG2 file, or raw frames; '-' is standard input. "
     "Frames\n"
-    "count from 0 over all inputs. Frames of a stream are processed as they arrive.\n"
+    "count from 0 over all inputs. Frames of a stream are processed as they arrive. Pictures over "
+    "about\n"
+    "4 megapixels (1920x1080 and 2048x2048 are fine, 2592x1944 is not) are refused, as their sums "
+    "could\n"
+    "overflow: make them smaller first, or cut them with pel convert --crop.\n"
     "\n"
     "  -c, --classes CLASSES    class file, CMVision's text format, or a .tm table\n"
     "      --raw FORMAT WxH     INPUT holds raw frames: YUYV 320x240, for example\n"
@@ -32,9 +36,12 @@ static const char help[] =
     "      --min-density D      at least this part of the box filled, 0..1\n"
     "      --class NAME         only this class, by name or number; may be repeated\n"
     "      --roi X0,Y0,X1,Y1    only where the centroid lies in this box (x0 <= x < x1)\n"
-    "      --merge-density D    then unite blobs of a class where they fill more than this part of "
+    "      --merge-classes      then unite blobs of a class where they fill more than the class's "
+    "merge\n"
+    "                           density of the box around both, as CMVision does; that number of "
     "the\n"
-    "                           box around both, 0..1 (CMVision's merge)\n"
+    "                           class file (0: never) is not applied otherwise\n"
+    "      --merge-density D    the same with one density for all classes, 0..1\n"
     "      --merge-margin N     then unite blobs of a class whose boxes, grown by N pixels, "
     "overlap\n"
     "      --max N              then keep the N largest of a frame, default all\n"
@@ -78,7 +85,7 @@ struct job {
     uint8_t connectivity;
     uint16_t merge_density_q15;
     uint16_t merge_margin;
-    int merges_density, merges_margin;
+    int merges_classes, merges_density, merges_margin;
     unsigned long max; /* 0: all */
     report_style style;
     const char *output;
@@ -116,21 +123,14 @@ static int read_q15(const char *name, uint16_t *value_q15)
 
 static int read_roi(pel_blob_filter *filter)
 {
-    unsigned x0;
-    unsigned y0;
-    unsigned x1;
-    unsigned y1;
-    char end;
-    if (strlen(optarg) > 19 || optarg[strspn(optarg, "0123456789,")] != '\0' ||
-        sscanf(optarg, "%u,%u,%u,%u%c", &x0, &y0, &x1, &y1, &end) != 4 || x0 >= x1 || y0 >= y1 ||
-        x1 > PEL_SIDE_MAX || y1 > PEL_SIDE_MAX) {
-        return say_error("blobs", "--roi needs X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, not '%s'",
-                         optarg);
+    options_box box;
+    if (options_take_box("--roi", optarg, &box)) {
+        return -1;
     }
-    filter->roi_x0 = (uint16_t)x0;
-    filter->roi_y0 = (uint16_t)y0;
-    filter->roi_x1 = (uint16_t)x1;
-    filter->roi_y1 = (uint16_t)y1;
+    filter->roi_x0 = box.x0;
+    filter->roi_y0 = box.y0;
+    filter->roi_x1 = box.x1;
+    filter->roi_y1 = box.y1;
     return 0;
 }
 
@@ -164,14 +164,14 @@ static int read_wanted(struct job *job)
     return 0;
 }
 
-/* Takes an option with a value of its own; 0, or -1 after a message. */
+/* Takes one of the options that are not in parse; 0, or -1 after a message. */
 static int read_option(int option, int argc, char **argv, struct job *job)
 {
+    const int taken = options_input(option, argc, argv, &job->input);
+    if (taken != 0) {
+        return taken < 0 ? -1 : 0;
+    }
     switch (option) {
-    case 'R':
-        return options_raw(argc, argv, &job->input);
-    case 'G':
-        return options_range(optarg, &job->input.range);
     case 'k':
         return read_connectivity(job);
     case 'a':
@@ -182,6 +182,9 @@ static int read_option(int option, int argc, char **argv, struct job *job)
         return read_wanted(job);
     case 'r':
         return read_roi(&job->filter);
+    case 'K':
+        job->merges_classes = 1;
+        return 0;
     case 'D':
         job->merges_density = 1;
         return read_q15("--merge-density", &job->merge_density_q15);
@@ -203,17 +206,17 @@ static int check(int argc, const struct job *job)
     if (job->output && strcmp(job->output, "-") == 0 && job->style != REPORT_TABLE) {
         return usage_error("blobs", "standard output cannot take both the list and the picture");
     }
-    return -1;
+    return job->output && sink_check_picture(job->output) ? usage_hint("blobs") : -1;
 }
 
 static const struct option long_options[] = {{"classes", required_argument, NULL, 'c'},
-                                             {"raw", required_argument, NULL, 'R'},
-                                             {"range", required_argument, NULL, 'G'},
+                                             OPTIONS_INPUT,
                                              {"connectivity", required_argument, NULL, 'k'},
                                              {"min-area", required_argument, NULL, 'a'},
                                              {"min-density", required_argument, NULL, 'd'},
                                              {"class", required_argument, NULL, 'n'},
                                              {"roi", required_argument, NULL, 'r'},
+                                             {"merge-classes", no_argument, NULL, 'K'},
                                              {"merge-density", required_argument, NULL, 'D'},
                                              {"merge-margin", required_argument, NULL, 'M'},
                                              {"max", required_argument, NULL, 'x'},
@@ -283,6 +286,17 @@ static int choose_classes(struct job *job)
     return 0;
 }
 
+static int check_merging(struct job *job)
+{
+    if (job->merges_classes && job->list.cells) {
+        job->status = EXIT_BAD_USAGE;
+        return say_error(job->classes_path, "a table has no merge densities for --merge-classes; "
+                                            "use the class file that it was made from, or "
+                                            "--merge-density");
+    }
+    return 0;
+}
+
 /* ---- The annotated picture ----------------------------------------------------------------- */
 
 /* The place of "%d", "%4d", "%04d", ... in a name, and how long it is; NULL if there is none. */
@@ -312,6 +326,19 @@ static char *output_name(const char *pattern, unsigned long number)
     const char *format = place[1] == '0' ? "%.*s%0*lu%s" : "%.*s%*lu%s";
     snprintf(name, room, format, (int)(place - pattern), pattern, width, number, place + length);
     return name;
+}
+
+/* Whether OUT has room for one frame only, and what to say to more. */
+static int takes_one_frame(const char *output)
+{
+    size_t length;
+    return output && strcmp(output, "-") != 0 && !find_number(output, &length);
+}
+
+static int refuse_frames(const char *output)
+{
+    return say_error(output, "more than one frame, but this is one picture: write %%04d where the "
+                             "number of the frame shall be");
 }
 
 static int read_rgb(const pel_cview *view, const pel_view *picture)
@@ -353,6 +380,13 @@ static int annotate(const struct job *job, const char *path, unsigned long numbe
 }
 
 /* ---- Finding ------------------------------------------------------------------------------- */
+
+/* Densities over 1 are never reached, like 32767: blobs apart leave more than 1 / 32768 free. */
+static uint16_t density_q15(double density)
+{
+    const double value = density * 32768 + 0.5;
+    return (uint16_t)(value < 32767 ? value : 32767);
+}
 
 static void keep(void *user, const pel_blob *blob)
 {
@@ -399,7 +433,9 @@ static int find(struct job *job, const char *path, const pel_cview *view, pel_bl
     free(labels);
     free(work);
     if (status == PEL_ERR_RANGE) {
-        return say_error(path, "a picture of %ux%u is too large: its sums could overflow",
+        return say_error(path,
+                         "a picture of %ux%u is too large: its sums could overflow; make it "
+                         "smaller first, or cut it with pel convert --crop",
                          (unsigned)view->width, (unsigned)view->height);
     }
     if (status == PEL_ERR_SPACE || job->out_of_memory) {
@@ -408,9 +444,48 @@ static int find(struct job *job, const char *path, const pel_cview *view, pel_bl
     return status < 0 ? say_error(path, "cannot be searched: %s", pel_status_name(status)) : 0;
 }
 
+/* Brings the blobs of a class to the front; returns how many there are. */
+static uint32_t bring_to_front(pel_blob *blobs, uint32_t count, unsigned class_index)
+{
+    uint32_t front = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (blobs[i].class_index == class_index) {
+            const pel_blob blob = blobs[i];
+            blobs[i] = blobs[front];
+            blobs[front++] = blob;
+        }
+    }
+    return front;
+}
+
+/* Merges the blobs of each class with the density that the class file gives; sorted at the end. */
+static void merge_classes(struct job *job)
+{
+    uint32_t done = 0;
+    uint32_t left = job->count;
+    for (unsigned i = 0; i < job->list.count; i++) {
+        const double density = job->list.entry[i].merge;
+        pel_blob *first = job->blobs + done;
+        const uint32_t found = bring_to_front(first, left, i);
+        uint32_t merged = found;
+        if (density > 0) {
+            pel_blobs_sort(first, found);
+            merged = pel_blobs_merge_density(first, found, density_q15(density));
+            memmove(first + merged, first + found, (left - found) * sizeof *first);
+        }
+        done += merged;
+        left -= found;
+    }
+    job->count = done;
+    pel_blobs_sort(job->blobs, job->count);
+}
+
 static void merge_and_cut(struct job *job, pel_blobs_counts *counts)
 {
     pel_blobs_sort(job->blobs, job->count);
+    if (job->merges_classes && job->count > 0) {
+        merge_classes(job);
+    }
     if (job->merges_density) {
         job->count = pel_blobs_merge_density(job->blobs, job->count, job->merge_density_q15);
     }
@@ -446,13 +521,8 @@ static int visit(void *user, const char *path, unsigned long number, const pel_c
     struct job *job = user;
     pel_blobs_counts counts = {0};
     const int to_stdout = job->output && strcmp(job->output, "-") == 0;
-    size_t length;
-    if (number > 0 && job->output && !to_stdout && !find_number(job->output, &length)) {
-        job->status = usage_error("blobs",
-                                  "more than one frame, but '%s' is one picture: write %%04d "
-                                  "where the number of the frame shall be",
-                                  job->output);
-        return -1;
+    if (number > 0 && takes_one_frame(job->output)) {
+        return refuse_frames(job->output);
     }
     job->count = 0;
     if (walk_check_range(path, view, job->classes_path, &job->list) ||
@@ -474,10 +544,14 @@ static int run(int argc, char **argv)
         return status;
     }
     job.status = EXIT_BAD_INPUT;
-    if (classes_read(job.classes_path, &job.list)) {
-        return job.status;
+    if (argc - optind > 1 && takes_one_frame(job.output)) {
+        refuse_frames(job.output);
+        return EXIT_BAD_INPUT;
     }
-    int failed = choose_classes(&job);
+    if (classes_read(job.classes_path, &job.list)) {
+        return EXIT_BAD_INPUT;
+    }
+    int failed = choose_classes(&job) || check_merging(&job);
     if (!failed) {
         if (!job.output || strcmp(job.output, "-") != 0) {
             report_begin(stdout, job.style);

@@ -17,8 +17,9 @@ static const char help[] =
     "the\n"
     "C declarations to paste. The numbers come from the macros that the firmware itself uses; "
     "sizes of\n"
-    "structures with pointers are those of this machine (on a 32-bit controller they are "
-    "smaller).\n"
+    "structures with pointers are those of this machine: the finder is smaller on a 32-bit "
+    "controller\n"
+    "(184 bytes on a 64-bit computer, 120 on Cortex-M).\n"
     "\n"
     "      --classes N        colour classes, default 8, at most 32 (8, 16 and 32 have tables of\n"
     "                         different size)\n"
@@ -154,12 +155,17 @@ static size_t boxes_bytes(unsigned long classes)
                                                : (size_t)3 * 256 * (class_max(classes) / 8);
 }
 
-/* A Bayer camera's rows come in pairs, of which both are needed at once. */
+/* What one row of colours is read from. Where rows come in pairs that is both of a mosaic, but of
+ * planes one row of Y and the chroma that two share. */
 static size_t line_bytes(const struct plan *plan)
 {
-    const size_t row = pel_row_bytes(plan->format, (uint16_t)plan->width);
-    const int planes = plan->format == PEL_NV12 || plan->format == PEL_I420;
-    return plan->format >= PEL_BAYER8_RGGB || planes ? 2 * row : row;
+    const uint16_t width = (uint16_t)plan->width;
+    const size_t one = pel_frame_bytes(plan->format, width, 1);
+    const size_t two = pel_frame_bytes(plan->format, width, 2);
+    if (one > 0) {
+        return one;
+    }
+    return pel_colour_height(plan->format, 2) == 1 ? two : two - pel_row_bytes(plan->format, width);
 }
 
 static void print_parts(const struct plan *plan, const struct part *parts, size_t count)
@@ -217,7 +223,7 @@ static void print_remarks(const struct plan *plan, unsigned width)
 {
     const unsigned long safe = PEL_BLOBS_OPEN_SAFE(width);
     printf("\nNothing can be lost with --open %lu (work: %zu bytes)", safe,
-           PEL_BLOBS_BYTES(width, safe, plan->measure));
+           PEL_BLOBS_WORDS(width, safe, plan->measure) * sizeof(uint64_t));
     if (plan->open >= safe) {
         puts("; this plan has that.");
     } else {
@@ -251,7 +257,7 @@ static int run(int argc, char **argv)
     const struct part parts[] = {
         {"class tables", boxes_bytes(plan.classes)},
         {"label row", width},
-        {"working memory", PEL_BLOBS_BYTES(width, plan.open, plan.measure)},
+        {"working memory", PEL_BLOBS_WORDS(width, plan.open, plan.measure) * sizeof(uint64_t)},
         {"results", plan.blobs * sizeof(pel_blob)},
         {"finder", sizeof(pel_blobs)},
     };

@@ -20,7 +20,10 @@ static const char help[] =
     "format or a .tm table; \"-\" is standard input. Without OUT the classes are listed.\n"
     "\n"
     "  OUT.tm               a CMVision 2 table of 16 x 64 x 64 labels, each cell classified at its "
-    "middle\n"
+    "middle.\n"
+    "                       A table has full colour range: classes of limited range are converted, "
+    "by\n"
+    "                       the middles of the cells, and merge densities are lost\n"
     "  OUT.c                C source for the flash of a robot: the boxes, or the cells of a table\n"
     "  any other OUT        the text format (a table of labels has no boxes to write there)\n"
     "      --c-array NAME   the name in the C source; default: classes\n"
@@ -50,7 +53,8 @@ static int parse(int argc, char **argv, struct job *job)
             return EXIT_SUCCESS;
         case 'a':
             if (!carray_name_ok(optarg)) {
-                return usage_error("classes", "'%s' is not a C name", optarg);
+                return usage_error("classes", "'%s' is not a C name, or a keyword of C or C++",
+                                   optarg);
             }
             job->array_name = optarg;
             break;

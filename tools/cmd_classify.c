@@ -42,11 +42,10 @@ struct job {
 static int parse(int argc, char **argv, struct job *job)
 {
     static const struct option long_options[] = {{"classes", required_argument, NULL, 'c'},
-                                                 {"raw", required_argument, NULL, 'R'},
-                                                 {"range", required_argument, NULL, 'G'},
+                                                 OPTIONS_INPUT,
                                                  {"help", no_argument, NULL, 'h'},
                                                  {NULL, 0, NULL, 0}};
-    int option;
+    int option, taken;
     opterr = 0;
     while ((option = getopt_long(argc, argv, ":c:h", long_options, NULL)) != -1) {
         switch (option) {
@@ -56,18 +55,12 @@ static int parse(int argc, char **argv, struct job *job)
         case 'c':
             job->classes_path = optarg;
             break;
-        case 'R':
-            if (options_raw(argc, argv, &job->input)) {
-                return usage_hint("classify");
-            }
-            break;
-        case 'G':
-            if (options_range(optarg, &job->input.range)) {
-                return usage_hint("classify");
-            }
-            break;
         default:
-            return usage_bad_option("classify", option, argv);
+            taken = options_input(option, argc, argv, &job->input);
+            if (taken <= 0) {
+                return taken < 0 ? usage_hint("classify")
+                                 : usage_bad_option("classify", option, argv);
+            }
         }
     }
     if (!job->classes_path) {
@@ -77,7 +70,7 @@ static int parse(int argc, char **argv, struct job *job)
         return usage_error("classify", "INPUT and OUT wanted, %d given", argc - optind);
     }
     job->output = argv[optind + 1];
-    return -1;
+    return sink_check_picture(job->output) ? usage_hint("classify") : -1;
 }
 
 static void paint(const struct job *job, size_t count)

@@ -47,6 +47,10 @@ static const char help[] =
     "      --c-array NAME   writes the frame as C source: const uint8_t NAME[], in the bytes of\n"
     "                       the sensor, with NAME_width and NAME_height\n"
     "      --frame N        only frame N, from 0; may be given several times\n"
+    "      --crop X0,Y0,X1,Y1\n"
+    "                       only this part of each frame, x0 <= x < x1, in pixels of IN (Bayer:\n"
+    "                       of the mosaic). Pixels that share colours stay together: x even in\n"
+    "                       4:2:2, x and y even in 4:2:0 and Bayer\n"
     "  -h, --help           this text\n"
     "\n"
     "Pixel formats: GRAY8 YUYV UYVY YVYU VYUY NV12 I420 RGB565_LE RGB565_BE RGB888 BGR888\n"
@@ -60,7 +64,8 @@ static const char help[] =
     "  pel convert --raw YUYV 320x240 --range limited camera.yuv camera.y4m\n"
     "  pel convert --raw UYVY 160x120 --frame 17 field.yuv failure.png\n"
     "  pel convert --raw RGB565_BE 160x120 --frame 17 --c-array failure field.raw failure.c\n"
-    "  pel convert --to RGB565_BE photo.png - | wc -c\n";
+    "  pel convert --to RGB565_BE photo.png - | wc -c\n"
+    "  pel convert --crop 0,0,2048,1536 large.jpg part.png\n";
 
 enum { FRAMES_MAX = 100 };
 
@@ -68,10 +73,10 @@ enum { FRAMES_MAX = 100 };
 typedef struct request {
     source_options input;
     const char *in, *out, *array;
-    int has_format, has_kind, has_range;
+    int has_format, has_kind, has_range, has_crop;
     pel_format format; /* of OUT, if has_format */
     sink_kind kind;    /* of OUT, always known in the end unless `array` */
-    pel_range range;
+    options_box crop;
     unsigned long frames[FRAMES_MAX]; /* wanted; none: all */
     unsigned frame_count;
 } request;
@@ -107,10 +112,10 @@ static int take_target(request *wanted)
     return options_format(optarg, &wanted->format);
 }
 
-static int take_range(request *wanted)
+static int take_crop(request *wanted)
 {
-    wanted->has_range = 1;
-    return options_range(optarg, &wanted->range);
+    wanted->has_crop = 1;
+    return options_take_box("--crop", optarg, &wanted->crop);
 }
 
 static int take_array(request *wanted)
@@ -120,17 +125,55 @@ static int take_array(request *wanted)
                ? 0
                : say_error("convert",
                            "'%s' cannot name an array in C: letters, digits and '_', at most "
-                           "60, no digit first",
+                           "60, no digit first, no keyword of C or C++",
                            optarg);
+}
+
+/* Takes one of the options that inputs have everywhere. --range is OUT's, too. */
+static int take_input(int option, int argc, char **argv, request *wanted)
+{
+    const int taken = options_input(option, argc, argv, &wanted->input);
+
+    wanted->has_range |= option == OPTION_RANGE;
+    if (taken == 0) {
+        usage_bad_option("convert", option, argv);
+    } else if (taken < 0) {
+        usage_hint("convert");
+    }
+    return taken > 0 ? 0 : -1;
+}
+
+/* Takes one of convert's own: 0, or -1 after a message. */
+static int take_option(int option, request *wanted)
+{
+    int status;
+
+    switch (option) {
+    case 'T':
+        status = take_target(wanted);
+        break;
+    case 'F':
+        status = take_frame(wanted);
+        break;
+    case 'P':
+        status = take_crop(wanted);
+        break;
+    default:
+        status = take_array(wanted);
+    }
+    if (status) {
+        usage_hint("convert");
+    }
+    return status;
 }
 
 /* 0 to go on, 1 after --help, -1 after a message. */
 static int parse_options(int argc, char **argv, request *wanted)
 {
     static const struct option known[] = {
-        {"raw", required_argument, NULL, 'R'},
+        OPTIONS_INPUT,
         {"to", required_argument, NULL, 'T'},
-        {"range", required_argument, NULL, 'G'},
+        {"crop", required_argument, NULL, 'P'},
         {"frame", required_argument, NULL, 'F'},
         {"c-array", required_argument, NULL, 'C'},
         {"help", no_argument, NULL, 'h'},
@@ -141,30 +184,17 @@ static int parse_options(int argc, char **argv, request *wanted)
     opterr = 0;
     while (status == 0 && (option = getopt_long(argc, argv, ":h", known, NULL)) != -1) {
         switch (option) {
-        case 'R':
-            status = options_raw(argc, argv, &wanted->input);
-            break;
-        case 'T':
-            status = take_target(wanted);
-            break;
-        case 'G':
-            status = take_range(wanted);
-            break;
-        case 'F':
-            status = take_frame(wanted);
-            break;
-        case 'C':
-            status = take_array(wanted);
-            break;
         case 'h':
             return 1;
+        case 'T':
+        case 'F':
+        case 'P':
+        case 'C':
+            status = take_option(option, wanted);
+            break;
         default:
-            usage_bad_option("convert", option, argv);
-            return -1;
+            status = take_input(option, argc, argv, wanted);
         }
-    }
-    if (status) {
-        usage_hint("convert");
     }
     return status;
 }
@@ -216,9 +246,6 @@ static int check_request(request *wanted)
         }
         wanted->has_format = 1;
         wanted->format = wanted->input.format;
-    }
-    if (wanted->has_range) {
-        wanted->input.range = wanted->range;
     }
     return 0;
 }
@@ -278,7 +305,7 @@ static pel_format video_format(const request *wanted, pel_format format)
 /* Pictures are converted while they are written, the others before. */
 static int make_view(const request *wanted, const pel_cview *view, frame *packed, pel_cview *made)
 {
-    pel_range range = wanted->has_range ? wanted->range : view->range;
+    pel_range range = wanted->has_range ? wanted->input.range : view->range;
     pel_format format = wanted->format;
 
     if (!wanted->array && wanted->kind < SINK_Y4M) {
@@ -332,6 +359,29 @@ static int write_frame(const request *wanted, output *out, const pel_cview *view
     return 0;
 }
 
+/* The part that --crop asks for: 0, or -1 after a message. */
+static int crop_frame(const request *wanted, pel_cview *view)
+{
+    const options_box *box = &wanted->crop;
+    const unsigned width = view->width, height = view->height;
+
+    if (!wanted->has_crop) {
+        return 0;
+    }
+    switch (pel_cview_crop(view, box->x0, box->x1, box->y0, box->y1, view)) {
+    case PEL_OK:
+        return 0;
+    case PEL_ERR_RANGE:
+        return say_error(wanted->in, "--crop %u,%u,%u,%u is not inside the picture of %ux%u",
+                         box->x0, box->y0, box->x1, box->y1, width, height);
+    default:
+        return say_error(wanted->in,
+                         "--crop %u,%u,%u,%u cuts through pixels of %s that share colours: "
+                         "4:2:2 needs even x, 4:2:0 and Bayer even x and y",
+                         box->x0, box->y0, box->x1, box->y1, pel_format_name(view->format));
+    }
+}
+
 static int copy_frames(const request *wanted, source *from, output *out)
 {
     unsigned long number = 0, last = last_wanted(wanted);
@@ -342,7 +392,7 @@ static int copy_frames(const request *wanted, source *from, output *out)
         status = source_next(from, &picture);
         if (status > 0 && is_wanted(wanted, number)) {
             pel_cview view = pel_view_to_read(&picture.view);
-            status = write_frame(wanted, out, &view) ? -1 : 1;
+            status = crop_frame(wanted, &view) || write_frame(wanted, out, &view) ? -1 : 1;
         }
     }
     frame_free(&picture);

@@ -34,11 +34,12 @@ struct job {
 
 static int parse(int argc, char **argv, struct job *job)
 {
-    static const struct option long_options[] = {
-        {"classes", required_argument, NULL, 'c'}, {"csv", no_argument, NULL, 'v'},
-        {"raw", required_argument, NULL, 'R'},     {"range", required_argument, NULL, 'G'},
-        {"help", no_argument, NULL, 'h'},          {NULL, 0, NULL, 0}};
-    int option;
+    static const struct option long_options[] = {{"classes", required_argument, NULL, 'c'},
+                                                 {"csv", no_argument, NULL, 'v'},
+                                                 OPTIONS_INPUT,
+                                                 {"help", no_argument, NULL, 'h'},
+                                                 {NULL, 0, NULL, 0}};
+    int option, taken;
     opterr = 0;
     while ((option = getopt_long(argc, argv, ":c:h", long_options, NULL)) != -1) {
         switch (option) {
@@ -51,18 +52,11 @@ static int parse(int argc, char **argv, struct job *job)
         case 'v':
             job->csv = 1;
             break;
-        case 'R':
-            if (options_raw(argc, argv, &job->input)) {
-                return usage_hint("runs");
-            }
-            break;
-        case 'G':
-            if (options_range(optarg, &job->input.range)) {
-                return usage_hint("runs");
-            }
-            break;
         default:
-            return usage_bad_option("runs", option, argv);
+            taken = options_input(option, argc, argv, &job->input);
+            if (taken <= 0) {
+                return taken < 0 ? usage_hint("runs") : usage_bad_option("runs", option, argv);
+            }
         }
     }
     if (!job->classes_path) {
@@ -134,4 +128,4 @@ static int run(int argc, char **argv)
     return failed ? EXIT_BAD_INPUT : EXIT_SUCCESS;
 }
 
-const command cmd_runs = {"runs", "list the runs of one class in every row", help, run};
+const command cmd_runs = {"runs", "list the runs of every class, row by row", help, run};

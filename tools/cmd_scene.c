@@ -188,6 +188,10 @@ static int check(int argc, char **argv, const struct request *request)
         1) {
         return usage_error("scene", "only one output can go to standard output");
     }
+    if ((request->picture && sink_check_picture(request->picture)) ||
+        (request->mask && sink_check_picture(request->mask))) {
+        return usage_hint("scene");
+    }
     return 0;
 }
 

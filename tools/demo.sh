@@ -20,7 +20,7 @@ install_missing "$build/logs/demo-install.log"
 echo "Building pel (log: $build/logs/demo-build.log)"
 step "$build/logs/demo-configure.log" cmake -S . -B "$build/demo" -DPEL_BUILD_TOOLS=ON \
     -DPEL_BUILD_TESTS=OFF || exit 1
-step "$build/logs/demo-build.log" cmake --build "$build/demo" --parallel || exit 1
+step "$build/logs/demo-build.log" cmake --build "$build/demo" --parallel "$jobs" || exit 1
 
 pel=$build/demo/tools/pel
 out=$build/demo-out

@@ -111,6 +111,28 @@ int options_size(const char *word, unsigned *width, unsigned *height)
     return 0;
 }
 
+int options_take_box(const char *name, const char *word, options_box *box)
+{
+    const char *p = word;
+    unsigned long edge[4];
+    int i, good = 1;
+
+    for (i = 0; i < 4 && good; i++) {
+        good = take_number(&p, PEL_SIDE_MAX, &edge[i]) == 0 && *p++ == (i < 3 ? ',' : '\0');
+    }
+    if (!good || edge[0] >= edge[2] || edge[1] >= edge[3]) {
+        return say_error(NULL,
+                         "%s needs X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1, at most %d each, "
+                         "not '%s'",
+                         name, PEL_SIDE_MAX, word);
+    }
+    box->x0 = (uint16_t)edge[0];
+    box->y0 = (uint16_t)edge[1];
+    box->x1 = (uint16_t)edge[2];
+    box->y1 = (uint16_t)edge[3];
+    return 0;
+}
+
 int options_range(const char *word, pel_range *range)
 {
     if (options_same_word(word, "full")) {
@@ -135,7 +157,8 @@ int options_check_size(pel_format format, unsigned width, unsigned height)
     return 0;
 }
 
-int options_raw(int argc, char **argv, source_options *options)
+/* --raw FORMAT WIDTHxHEIGHT: getopt_long has taken FORMAT only. */
+static int take_raw(int argc, char **argv, source_options *options)
 {
     pel_format format = PEL_GRAY8;
     unsigned width, height;
@@ -156,4 +179,16 @@ int options_raw(int argc, char **argv, source_options *options)
     options->width = width;
     options->height = height;
     return 0;
+}
+
+int options_input(int option, int argc, char **argv, source_options *input)
+{
+    int status;
+
+    if (option != OPTION_RAW && option != OPTION_RANGE) {
+        return 0;
+    }
+    status =
+        option == OPTION_RAW ? take_raw(argc, argv, input) : options_range(optarg, &input->range);
+    return status ? -1 : 1;
 }

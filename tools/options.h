@@ -1,27 +1,44 @@
 /*
  * The options that subcommands share, read the same way everywhere. In a getopt_long loop:
  *
- *     {"raw", required_argument, NULL, 'R'}, {"range", required_argument, NULL, 'G'},
+ *     static const struct option known[] = {OPTIONS_INPUT, ...};
  *     ...
- *     case 'R': if (options_raw(argc, argv, &input)) { return EXIT_BAD_USAGE; } break;
- *     case 'G': if (options_range(optarg, &input.range)) { return EXIT_BAD_USAGE; } break;
+ *     default: taken = options_input(option, argc, argv, &input); ...
  *
- * All return 0, or -1 after a message that lists what is valid; then nothing was changed.
+ * All but options_input and options_same_word return 0, or -1 after a message that lists what is
+ * valid; then nothing was changed.
  */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
 #include "source.h"
 
-/* "--raw FORMAT WIDTHxHEIGHT", two words: called when getopt_long has just returned the option,
- * whose argument is FORMAT. Takes argv[optind] as the size and moves optind past it. */
-int options_raw(int argc, char **argv, source_options *options);
+/* How inputs are read, for the list that getopt_long is given (<getopt.h>):
+ * --raw FORMAT WIDTHxHEIGHT and --range RANGE. */
+enum { OPTION_RAW = 'R', OPTION_RANGE = 'G' };
+#define OPTIONS_INPUT                                                                              \
+    {"raw", required_argument, NULL, OPTION_RAW},                                                  \
+    {                                                                                              \
+        "range", required_argument, NULL, OPTION_RANGE                                             \
+    }
+
+/* Takes what getopt_long has just returned if it is one of OPTIONS_INPUT; --raw has a second word
+ * and moves optind past it. 1 taken, 0 another option, -1 after a message. */
+int options_input(int option, int argc, char **argv, source_options *input);
 
 /* A pixel format by its name, upper or lower case: "yuyv", "RGB565_BE". */
 int options_format(const char *word, pel_format *format);
 
 /* A size such as "320x240", 1..PEL_SIDE_MAX each. */
 int options_size(const char *word, unsigned *width, unsigned *height);
+
+/* A part of a picture, x0 <= x < x1 and y0 <= y < y1. */
+typedef struct options_box {
+    uint16_t x0, y0, x1, y1;
+} options_box;
+
+/* "X0,Y0,X1,Y1", not empty, each at most PEL_SIDE_MAX. `name` is the option's, for the message. */
+int options_take_box(const char *name, const char *word, options_box *box);
 
 /* "full" or "limited". */
 int options_range(const char *word, pel_range *range);

@@ -134,10 +134,9 @@ static const packer packers[PEL_FORMAT_COUNT] = {
     [PEL_BAYER8_BGGR] = {0, 2, put_bayer, {2, 1, 1, 0}},
 };
 
-/* Whether the bytes of the view mean Y, U, V in one range only. */
-static int has_range(const pel_cview *view)
+int pack_has_range(pel_format format)
 {
-    return packers[view->format].ycbcr;
+    return packers[format].ycbcr;
 }
 
 void pack_rgb_row(const pel_cview *view, unsigned y, uint8_t *row)
@@ -155,7 +154,7 @@ static void read_ycbcr(const pel_cview *view, unsigned y, pel_range range, uint8
     uint8_t luma[PEL_SIDE_MAX], cb[PEL_SIDE_MAX], cr[PEL_SIDE_MAX];
     unsigned x;
 
-    if (has_range(view) && view->range != range) {
+    if (pack_has_range(view->format) && view->range != range) {
         pack_rgb_row(view, y, row);
         pel_rgb_to_ycbcr_row(row, row, width, range);
         return;
@@ -226,7 +225,7 @@ static int wrong_size(const char *where, pel_format format, unsigned width, unsi
 {
     return say_error(where,
                      "%ux%u pixels cannot be %s: 4:2:2 needs an even width, 4:2:0 and Bayer an "
-                     "even width and height; crop the picture",
+                     "even width and height; --crop X0,Y0,X1,Y1 takes a part that has one",
                      width, height, pel_format_name(format));
 }
 

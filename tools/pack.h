@@ -18,6 +18,10 @@
 int pack_frame(const char *where, const pel_cview *view, pel_format format, pel_range range,
                frame *out);
 
+/* Whether the bytes of a format mean Y, U, V, in one colour range only; RGB and mosaics have
+ * none. */
+int pack_has_range(pel_format format);
+
 /* Row y of a picture's colours as R G B, and as full-range luma; `row` has room for 3 *
  * PEL_SIDE_MAX or PEL_SIDE_MAX bytes. The view must be one that pel_cview_check accepts. */
 void pack_rgb_row(const pel_cview *view, unsigned y, uint8_t *row);

@@ -1,4 +1,5 @@
-/* The command `pel`: finds its subcommand, runs it, and makes sure that what was printed arrived. */
+/* The command `pel`: finds its subcommand, runs it, and makes sure that what was printed
+ * arrived. */
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
@@ -10,8 +11,10 @@
 #include "command.h"
 #include "say.h"
 
-static const command *const commands[] = {&cmd_blobs, &cmd_classify, &cmd_runs,   &cmd_convert,
-                                          &cmd_scene, &cmd_budget,   &cmd_classes};
+static const command *const commands[] = {&cmd_blobs, &cmd_classify, &cmd_runs,    &cmd_convert,
+                                          &cmd_scene, &cmd_budget,   &cmd_classes, &cmd_filter,
+                                          &cmd_point, &cmd_corners,  &cmd_edges,   &cmd_histogram,
+                                          &cmd_line,  &cmd_sheet};
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 

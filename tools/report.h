@@ -11,7 +11,8 @@
 /* Opens a file to write text into; "-" is standard output. NULL after a message. */
 FILE *report_open(const char *path);
 
-/* Closes it (standard output: flushes it). 0, or -1 after a message where not all could be written. */
+/* Closes it (standard output: flushes it). 0, or -1 after a message where not all could be
+ * written. */
 int report_close(FILE *file, const char *path);
 
 /* sum / count with three decimals, halves upward; 0 for a count of 0. */

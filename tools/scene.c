@@ -5,8 +5,9 @@
 #include "say.h"
 
 /*
- * The class boxes hold every colour that the renderer's paints take between its darkest shade and its
- * highlight, in full range; they are checked by classifying rendered scenes against their masks.
+ * The class boxes hold every colour that the renderer's paints take between its darkest shade and
+ * its highlight, in full range; they are checked by classifying rendered scenes against their
+ * masks.
  */
 static const struct {
     const char *name;

@@ -1,7 +1,7 @@
 /*
- * A football field in a hall, with coloured balls, cones, posts and a goal, as the camera of a small
- * robot sees it. Everything is computed in integers from a seed: the same options give the same
- * bytes on every machine, and what is where is known exactly.
+ * A football field in a hall, with coloured balls, cones, posts and a goal, as the camera of a
+ * small robot sees it. Everything is computed in integers from a seed: the same options give the
+ * same bytes on every machine, and what is where is known exactly.
  *
  * Robot coordinates: millimetres, x to the right of the camera's heading, y ahead, z up, the origin
  * on the floor below the camera.
@@ -97,21 +97,23 @@ const char *scene_kind_name(scene_kind kind);
 /* The classes of the scenes in their light without gain, cast, noise and blur. */
 void scene_classes(classes *list);
 
-/* Places everything. 0, or -1 after a message: no room for so many things in what the camera sees. */
+/* Places everything. 0, or -1 after a message: no room for so many things in what the camera
+ * sees. */
 int scene_build(const scene_options *options, struct scene *scene);
 
 /* The ray through a place of the picture, in 1/256 pixel from its first pixel's centre, in robot
- * coordinates; and a ray of robot coordinates in those of the field, whose origin is the middle of the
- * centre circle and whose y axis points to the blue goal. */
+ * coordinates; and a ray of robot coordinates in those of the field, whose origin is the middle
+ * of the centre circle and whose y axis points to the blue goal. */
 trace_ray scene_ray(const struct scene *scene, int64_t x_q8, int64_t y_q8);
 trace_ray scene_ray_in_field(const struct scene *scene, const trace_ray *ray);
 
-/* A random number that belongs to a seed and a place in its sequence (the finaliser of MurmurHash3). */
+/* A random number that belongs to a seed and a place in its sequence (the finaliser of
+ * MurmurHash3). */
 uint32_t scene_random(uint32_t seed, uint32_t index);
 
 /*
- * Renders width x height pixels: rgb_q8, three numbers of 8 fraction bits each, and the label of every
- * pixel's centre. Completes the objects of the scene.
+ * Renders width x height pixels: rgb_q8, three numbers of 8 fraction bits each, and the label of
+ * every pixel's centre. Completes the objects of the scene.
  */
 void scene_render(struct scene *scene, uint16_t *rgb_q8, uint8_t *labels);
 

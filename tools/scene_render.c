@@ -191,8 +191,8 @@ static vec from_field(const struct scene *scene, vec point)
     return heading(scene, point, scene->yaw_sin);
 }
 
-/* The lamps hang to the left behind the robot; each ray of a pixel sees another point of them, which
- * gives shadows their soft edge. x, y: -128..128. */
+/* The lamps hang to the left behind the robot; each ray of a pixel sees another point of them,
+ * which gives shadows their soft edge. x, y: -128..128. */
 static vec light_direction(int64_t x, int64_t y)
 {
     vec light = {-30000 + x * 40, -24000 + y * 40, 52000};
@@ -337,8 +337,8 @@ static void blur(const scene_options *options, uint16_t *rgb_q8, uint16_t *scrat
     }
 }
 
-/* Noise of standard deviation `milli` / 1000 in q8: the sum of twelve bytes, less its mean 1530, has
- * a standard deviation of 256 (its exact value: the root of 65535). */
+/* Noise of standard deviation `milli` / 1000 in q8: the sum of twelve bytes, less its mean 1530,
+ * has a standard deviation of 256 (its exact value: the root of 65535). */
 static int64_t noise_q8(uint32_t seed, uint32_t sample, unsigned milli)
 {
     int64_t sum = -1530;

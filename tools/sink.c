@@ -198,13 +198,29 @@ int sink_close(sink *to, int status)
     return file ? sink_close_file(file, to->path, status) : status;
 }
 
+static int picture_kind(const char *path, sink_kind *kind)
+{
+    *kind = SINK_PPM;
+    if (strcmp(path, "-") != 0 && (sink_kind_by_path(path, kind) || *kind > SINK_PNG)) {
+        return say_error(path, "pictures are written as .ppm, .pgm or .png; name the file so");
+    }
+    return 0;
+}
+
+int sink_check_picture(const char *path)
+{
+    sink_kind kind;
+
+    return picture_kind(path, &kind);
+}
+
 int sink_picture(const char *path, const pel_cview *view, const char *comment)
 {
     sink to;
-    sink_kind kind = SINK_PPM;
+    sink_kind kind;
 
-    if (strcmp(path, "-") != 0 && (sink_kind_by_path(path, &kind) || kind > SINK_PNG)) {
-        return say_error(path, "pictures are written as .ppm, .pgm or .png; name the file so");
+    if (picture_kind(path, &kind)) {
+        return -1;
     }
     if (pel_cview_check(view) != PEL_OK) {
         return say_error(path, "this picture cannot be written: %s",

@@ -17,6 +17,10 @@
  * file, one line per line; may be NULL. 0, or -1 after an error message. */
 int sink_picture(const char *path, const pel_cview *view, const char *comment);
 
+/* Says whether sink_picture takes a path of that name, before anything is read: 0, or -1 after a
+ * message. */
+int sink_check_picture(const char *path);
+
 typedef enum sink_kind {
     SINK_PPM, /* one picture after another */
     SINK_PGM,

@@ -22,11 +22,6 @@ mkdir -p "$logs"
 cd "$root"
 . tools/dev/need.sh
 
-clang_sanitizes() {
-    echo 'int main(void) { return 0; }' |
-        clang -fsanitize=address,undefined -x c - -o "$logs/clang-sanitizes"
-}
-
 need gcc has cc
 need gcc has gcc
 need libc6-dev has_header stdlib.h
@@ -34,8 +29,7 @@ need g++ has g++
 need make has make
 need cmake has cmake
 need clang has clang
-need libclang-rt-dev clang_sanitizes
-need clang-format has clang-format
+need libclang-rt-dev sanitizes clang "$logs/clang-sanitizes"
 need valgrind has valgrind
 need pkg-config has pkg-config
 need libpng-dev has_header png.h
@@ -57,8 +51,6 @@ if ! cmp -s tests/requirements.txt "$stamp" || ! "$python" -m pip --version >/de
         -r tests/requirements.txt || exit 1
     cp tests/requirements.txt "$stamp"
 fi
-
-jobs=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 
 # build_with NAME COMPILER [CMAKE-OPTION...]
 build_with() {
@@ -100,7 +92,10 @@ if build_with clang clang; then
 else
     summary="$summary --check compile-clang:failed"
 fi
-if [ -z "$quick" ]; then
+if ! sanitizes gcc "$logs/gcc-sanitizes"; then
+    say_unsanitized gcc
+    summary="$summary --check sanitizers-of-gcc:skipped"
+elif [ -z "$quick" ]; then
     if build_with sanitize gcc -DPEL_SANITIZE=ON -DPEL_WERROR=OFF; then
         summary="$summary --check compile-sanitize:passed"
         run_tests sanitize -L quick

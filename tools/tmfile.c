@@ -149,6 +149,29 @@ int tmfile_read(input *in, classes *list)
     return 0;
 }
 
+/* Full-range luma, and chroma, as limited range has them; rounded, halves upward. */
+static unsigned limited_luma(unsigned y)
+{
+    return 16 + (2 * 219 * y + 255) / 510;
+}
+
+static unsigned limited_chroma(unsigned c)
+{
+    /* 128 + 224 (c - 128) / 255, from 128 - 128 * 224 / 255 = 3968 / 255 on: nothing is negative */
+    return (2 * (224 * c + 3968) + 255) / 510;
+}
+
+/* The label of a colour given in full range, which is the range of every table. */
+static uint8_t classify_full(const classes *list, unsigned y, unsigned u, unsigned v)
+{
+    if (list->range == PEL_RANGE_LIMITED) {
+        y = limited_luma(y);
+        u = limited_chroma(u);
+        v = limited_chroma(v);
+    }
+    return pel_classify_color(&list->classifier, (uint8_t)y, (uint8_t)u, (uint8_t)v);
+}
+
 int classes_write_tm(const char *path, const classes *list)
 {
     const unsigned y_step = 256 >> WRITTEN_Y_BITS, uv_step = 256 >> WRITTEN_UV_BITS;
@@ -163,8 +186,7 @@ int classes_write_tm(const char *path, const classes *list)
     for (y = y_step / 2; y < 256; y += y_step) {
         for (u = uv_step / 2; u < 256; u += uv_step) {
             for (v = uv_step / 2; v < 256; v += uv_step) {
-                putc(pel_classify_color(&list->classifier, (uint8_t)y, (uint8_t)u, (uint8_t)v),
-                     file);
+                putc(classify_full(list, y, u, v), file);
             }
         }
     }

@@ -1,6 +1,6 @@
 /*
  * CMVision 2 tables: "TMAP\nYUV8\n16 64 64\n" and one label per cell, Y outermost, V innermost. The
- * sizes may be other powers of two up to 256.
+ * sizes may be other powers of two up to 256. A table says nothing of the colour range: it is full.
  */
 #ifndef TMFILE_H
 #define TMFILE_H

@@ -121,8 +121,8 @@ static int64_t near_q8(int64_t t_q8)
     return t_q8 > (int64_t)1 << 24 ? -1 : t_q8;
 }
 
-/* The roots of a t^2 + 2 b t + c = 0 in q8, smaller first, a in q32, b in q16, c in mm^2; 0 if there
- * are none. A root that no ray can use is negative. */
+/* The roots of a t^2 + 2 b t + c = 0 in q8, smaller first, a in q32, b in q16, c in mm^2; 0 if
+ * there are none. A root that no ray can use is negative. */
 static int solve(int64_t a, int64_t b, int64_t c, int64_t roots_q8[2])
 {
     const int64_t discriminant = b * b - a * c;

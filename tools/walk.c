@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "pack.h"
 #include "say.h"
 
 static int visit_source(struct source *from, const char *path, unsigned long *number,
@@ -47,18 +48,21 @@ int walk_frames(char *const *paths, int count, const source_options *options, wa
     return 0;
 }
 
-/* RGB and mosaics are converted to what the classes want. */
-static int has_range(pel_format format)
-{
-    return format < PEL_RGB565_LE;
-}
-
 int walk_check_range(const char *path, const pel_cview *view, const char *classes_path,
                      const classes *list)
 {
     static const char *const names[] = {"full", "limited"};
-    if (!has_range(view->format) || view->range == list->range) {
+    /* RGB and mosaics are converted to what the classes want. */
+    if (!pack_has_range(view->format) || view->range == list->range) {
         return 0;
+    }
+    if (list->cells) {
+        return say_error(
+            path,
+            "its colours have %s range, but %s is a table, and a table has full range: convert "
+            "the picture to .ppm or .png with 'pel convert', or use the class file that the table "
+            "was made from (raw frames: say --range full if that is what they are)",
+            names[view->range], classes_path);
     }
     return say_error(
         path,

@@ -13,7 +13,8 @@ typedef int walk_visit(void *user, const char *path, unsigned long number, const
 int walk_frames(char *const *paths, int count, const source_options *options, walk_visit *visit,
                 void *user);
 
-/* Says whether the classes fit the colour range of a frame; the message says what to do. 0 or -1. */
+/* Says whether the classes fit the colour range of a frame; the message says what to do. 0 or
+ * -1. */
 int walk_check_range(const char *path, const pel_cview *view, const char *classes_path,
                      const classes *list);
 

@@ -11,6 +11,9 @@
  *   pel/color.h      RGB, YCbCr, normalised RGB and HSV, row by row
  *   pel/classify.h   a row of pixels becomes a row of class labels
  *   pel/blobs.h      rows of labels become blobs: area, box, centroid, axes, holes
+ *   pel/filter.h     3x3 and 5x5 kernels, gradients, median, morphology, with every border
+ *   pel/point.h      tables, histograms, thresholds, resizing, white balance
+ *   pel/feature.h    corners, edges, lines
  *
  * From a camera to blobs in four steps:
  *
@@ -49,5 +52,8 @@
 #include "pel/color.h"
 #include "pel/classify.h"
 #include "pel/blobs.h"
+#include "pel/filter.h"
+#include "pel/point.h"
+#include "pel/feature.h"
 
 #endif

@@ -193,7 +193,8 @@ static int rule_applies(const merge_rule *rule, const pel_blob *a, const pel_blo
                              : near_enough(a, b, rule->margin_px));
 }
 
-/* Merges the first pair, in the order of the list, to which the rule applies; 1 if there was one. */
+/* Merges the first pair, in the order of the list, to which the rule applies; 1 if there
+ * was one. */
 static int merge_first_pair(const merge_rule *rule, pel_blob *blobs, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {

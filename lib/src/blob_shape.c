@@ -41,11 +41,12 @@ void pel_blob_centroid_q16(const pel_blob *blob, int32_t *x_q16, int32_t *y_q16)
 }
 
 /*
- * Second central moments times area^2: spread = c20 + c02, difference = |c20 - c02|, mixed = |2 c11|,
- * and the signs of the last two. area * sum_xx may pass 2^64, but what is left after subtracting
- * sum_x^2 does not: area * sum of (x - mean)^2 only grows with every pixel that is added, so the full
- * frame bounds it, (width^2 height)^2 / 12 < 2^63 within the sizes of pel_blobs_begin; and unsigned
- * arithmetic is exact modulo 2^64. mixed <= spread < 2^64. Moments that were not measured give zeros.
+ * Second central moments times area^2: spread = c20 + c02, difference = |c20 - c02|, mixed =
+ * |2 c11|, and the signs of the last two. area * sum_xx may pass 2^64, but what is left after
+ * subtracting sum_x^2 does not: area * sum of (x - mean)^2 only grows with every pixel that is
+ * added, so the full frame bounds it, (width^2 height)^2 / 12 < 2^63 within the sizes of
+ * pel_blobs_begin; and unsigned arithmetic is exact modulo 2^64. mixed <= spread < 2^64. Moments
+ * that were not measured give zeros.
  */
 typedef struct axes {
     uint64_t spread, difference, mixed;

@@ -3,15 +3,15 @@
  *
  * A row goes through five steps:
  *   find     the runs of the row
- *   join     each run to the open blobs whose runs it touches in the row above; blobs that turn out to
- *            be one are united (a union-find forest over the slots)
+ *   join     each run to the open blobs whose runs it touches in the row above; blobs that turn
+ *            out to be one are united (a union-find forest over the slots)
  *   close    the blobs of the row above that no run joined: their slots become free
- *   add      each run to the sums of its blob, which from now on is the root of its tree; a run that
- *            joined none opens a blob if there is a free slot
- *   free     the united slots, to which nothing refers any more; runs that found no free slot before
- *            open their blobs now
- * So a blob is lost only if more blobs than slots are open after the row, and as every open blob owns a
- * run of it, there are never more of them than runs in a row.
+ *   add      each run to the sums of its blob, which from now on is the root of its tree; a run
+ *            that joined none opens a blob if there is a free slot
+ *   free     the united slots, to which nothing refers any more; runs that found no free slot
+ *            before open their blobs now
+ * So a blob is lost only if more blobs than slots are open after the row, and as every open blob
+ * owns a run of it, there are never more of them than runs in a row.
  */
 #include "pel/blobs.h"
 
@@ -95,8 +95,8 @@ static void unite_measures(pel_blobs *b, unsigned into, unsigned from)
     }
 }
 
-/* Two different roots become one, which is returned. The other goes to the list of united slots: runs
- * of this row and of the row above still refer to it. */
+/* Two different roots become one, which is returned. The other goes to the list of united slots:
+ * runs of this row and of the row above still refer to it. */
 static unsigned unite(pel_blobs *b, unsigned id1, unsigned id2)
 {
     const unsigned into = id1 < id2 ? id1 : id2, from = id1 < id2 ? id2 : id1;
@@ -144,8 +144,8 @@ static unsigned touch(pel_blobs *b, unsigned id, unsigned above)
     return unite(b, id, above);
 }
 
-/* Joins the runs of the row to the runs of the same label that they touch. A joined blob is marked by
- * its y1, before its pixels are added. */
+/* Joins the runs of the row to the runs of the same label that they touch. A joined blob is marked
+ * by its y1, before its pixels are added. */
 static void join_row(pel_blobs *b, size_t count, const uint8_t *labels)
 {
     const pel_run *above = b->runs[b->above];
@@ -244,8 +244,8 @@ static inline void add_run(pel_blobs *b, slot *slots, struct pel_blob_moments *m
     }
 }
 
-/* Adds the runs of the row to their blobs, and opens blobs for those that touch none while there are
- * free slots; returns for how many there was none. */
+/* Adds the runs of the row to their blobs, and opens blobs for those that touch none while there
+ * are free slots; returns for how many there was none. */
 static size_t add_row(pel_blobs *b, size_t count, const uint8_t *labels, const pel_crow *pixels)
 {
     const pel_run *const runs = b->runs[1 - b->above];

@@ -54,8 +54,8 @@ static pel_status check_config(const pel_blobs *b, const pel_blobs_config *c)
     return c->work_bytes < bytes_needed(c) ? PEL_ERR_SPACE : PEL_OK;
 }
 
-/* Takes `count` elements from the working memory. The elements with the strictest alignment are taken
- * first, so that all are aligned. */
+/* Takes `count` elements from the working memory. The elements with the strictest alignment are
+ * taken first, so that all are aligned. */
 static void *take(uint8_t **next, size_t count, size_t bytes)
 {
     void *const taken = *next;

@@ -1,5 +1,5 @@
-/* What a classifier refuses, for callers that must know before they begin. Private to classify.c and
- * blobs_frame.c. */
+/* What a classifier refuses, for callers that must know before they begin. Private to classify.c
+ * and blobs_frame.c. */
 #ifndef PEL_CLASSIFIER_H
 #define PEL_CLASSIFIER_H
 

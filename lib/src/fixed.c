@@ -1,6 +1,7 @@
 #include "pel/fixed.h"
 
-/* Shifts that round towards minus infinity also where >> of a negative value does something else. */
+/* Shifts that round towards minus infinity also where >> of a negative value does
+ * something else. */
 static int32_t floor_shift(int32_t value, unsigned bits)
 {
     return value >= 0 ? value >> bits : ~(~value >> bits);

@@ -3,8 +3,8 @@
 
 /*
  * The formats, in the order of the enum. No pointers in here: the table stays in flash.
- *    name, layout, bytes of a pair, planes, groups, order, {Y offset and step, U and V plane and offset,
- *    their step}
+ *    name, layout, bytes of a pair, planes, groups, order,
+ *    {Y offset and step, U and V plane and offset, their step}
  */
 static const pel_format_info formats[PEL_FORMAT_COUNT] = {
     {"GRAY8", PEL_LAYOUT_PAIRS, 2, 1, 1, 1, 0, {0, 1, 0, 0, 0, 0, 0}},
@@ -98,8 +98,8 @@ static uint32_t plane_row_bytes(const pel_format_info *info, unsigned plane, uin
     return plane > 0 && info->planes == 3 ? (uint32_t)width / 2 : row_bytes(info, width);
 }
 
-/* Whether rows of `bytes` fit the stride, and whether the distance from the first row to behind the last
- * fits 32 bits. */
+/* Whether rows of `bytes` fit the stride, and whether the distance from the first row to behind the
+ * last fits 32 bits. */
 static int stride_fits(int32_t stride_bytes, uint32_t bytes, uint16_t rows)
 {
     const uint32_t reach = stride_bytes < 0 ? 0u - (uint32_t)stride_bytes : (uint32_t)stride_bytes;

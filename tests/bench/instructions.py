@@ -209,14 +209,54 @@ def print_csv(rows):
                       r["blobs"], r["area"], r["compiler"]])
 
 
+def markdown_cells(row):
+    return [f"{row['input']}: {INPUTS[row['input']].title}, {row['blobs']} blobs",
+            f"{row['basic']:.1f}", f"{row['all']:.1f}", str(row["cmvision"])]
+
+
 def print_markdown(rows):
     print(MARKERS[0])
     print("| 640x480 YUYV to sorted blobs | pel | pel, all measured | CMVision 1.x |")
     print("| --- | ---: | ---: | ---: |")
     for r in rows:
-        print(f"| {r['input']}: {INPUTS[r['input']].title}, {r['blobs']} blobs "
-              f"| {r['basic']:.1f} | {r['all']:.1f} | {r['cmvision']} |")
+        print("| " + " | ".join(markdown_cells(r)) + " |")
     print(MARKERS[1])
+
+
+def read_markdown(path):
+    """The README's table: the cells of each line, by input, and the text before and behind it."""
+    before, rest = path.read_text().split(MARKERS[0])
+    table, behind = rest.split(MARKERS[1])
+    lines = [[cell.strip() for cell in line.strip("|").split("|")]
+             for line in table.strip().splitlines()[2:]]
+    return {cells[0].split(":")[0]: cells for cells in lines}, before + behind
+
+
+def check_figure(tally, what, told, now):
+    """The table tells one decimal, so a figure may differ by half of its last digit more."""
+    tally.check(abs(now - told) <= GROWTH_ALLOWED * told + 0.05,
+                f"{what} {told} instructions per pixel, measured {now:.2f}")
+
+
+def check_readme(tally, path, rows, names):
+    """Compares the README's table with what was measured; figures of its own compiler only."""
+    lines, text = read_markdown(path)
+    tally.check(list(lines) == list(INPUTS), f"{path.name} lists {', '.join(lines)}")
+    compiler = re.search(r"gcc (\d+)\.", text)
+    tally.check(compiler is not None, f"{path.name} names the compiler of its table")
+    for row in (row for row in rows if row["input"] in lines):
+        cells, wanted = lines[row["input"]], markdown_cells(row)
+        tally.check((cells[0], cells[3]) == (wanted[0], wanted[3]),
+                    f"{path.name}: '{cells[0]}', CMVision {cells[3]}")
+        if compiler and "gcc-" + compiler.group(1) != major(row["compiler"]):
+            tally.skip(f"{path.name}: {row['input']}, this is {row['compiler']}")
+            continue
+        for level, cell in zip(LEVELS, cells[1:3]):
+            if row[level] == row[level]:  # not counted without valgrind
+                check_figure(tally, f"{path.name}: {row['input']} {level}", float(cell), row[level])
+    for name in names:
+        if name not in [row["input"] for row in rows]:
+            tally.skip(f"{path.name}: {name} was not measured")
 
 
 def print_stages(rows):
@@ -245,6 +285,8 @@ def parse_arguments():
     form.add_argument("--markdown", action="store_true", help="only the table of the README")
     parser.add_argument("--stages", action="store_true", help="also the cost of each stage")
     parser.add_argument("--time", action="store_true", help="also nanoseconds, for information")
+    parser.add_argument("--check-readme", type=Path, metavar="README.md",
+                        help="also compare the table in this file")
     parser.add_argument("--write", action="store_true", help="write expected.csv, do not compare")
     arguments = parser.parse_args()
     arguments.inputs = arguments.inputs.split(",")
@@ -300,6 +342,8 @@ def main():
         sources = find_sources(arguments.inputs, folder, tally)
         rows = [measure(name, source, arguments.program, folder, tally, expected, arguments.stages)
                 for name, source in sources.items()]
+        if arguments.check_readme:
+            check_readme(tally, arguments.check_readme, rows, arguments.inputs)
         report(arguments, rows, sources, tally)
     if arguments.write:
         write_expected(rows)

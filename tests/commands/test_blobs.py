@@ -333,7 +333,8 @@ def test_what_came_before_a_broken_frame_is_there():
 def test_a_full_disk_is_noticed():
     if os.path.exists("/dev/full"):
         with open("/dev/full", "wb") as full:
-            refused(1, ["standard output"], "blobs", "-c", classes(), "--csv", picture(), stdout=full)
+            refused(1, ["standard output"], "blobs", "-c", classes(), "--csv", picture(),
+                    stdout=full)
 
 
 def test_a_closed_pipe_is_noticed():

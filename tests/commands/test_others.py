@@ -8,7 +8,8 @@ import subprocess
 from peltest import (DEMO, SOURCE, classify, collect, equal, main, ok, paint, parse_pnm, pel,
                      read_classes, read_pnm, refused, true, write)
 
-COMMANDS = ["blobs", "classify", "runs", "convert", "scene", "budget", "classes"]
+COMMANDS = ["blobs", "classify", "runs", "convert", "scene", "budget", "classes", "filter",
+            "point", "corners", "edges", "histogram", "line", "sheet"]
 CLASSES = """[Colors]
 (255,128,  0) 0.0000 1 orange
 (  1,  2,  3) 0.0000 1 a,b
@@ -230,7 +231,8 @@ def test_scene_to_standard_output():
     ok("scene", "--size", "40x30", "-o", "s.ppm")
     with open("s.ppm", "rb") as file:
         equal(ok("scene", "--size", "40x30", "-o", "-").out, file.read())
-    true(ok("scene", "--size", "40x30", "--objects", "-").text.startswith("id,kind,class,name,x_mm,"))
+    true(ok("scene", "--size", "40x30", "--objects",
+            "-").text.startswith("id,kind,class,name,x_mm,"))
 
 
 def test_scene_comment_is_its_command_line():

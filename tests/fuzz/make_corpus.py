@@ -52,7 +52,8 @@ def make_pnm():
     keep("pnm/only_comments.ppm", "P6\n# a\n# b\n", "the width is missing")
     keep("pnm/width_zero.ppm", "P6\n0 2\n255\n", "0x2; each side must be 1 to 8192")
     keep("pnm/height_zero.pgm", "P5\n2 0\n255\n", "2x0; each side must be 1 to 8192")
-    keep("pnm/width_over.pgm", "P5\n8193 1\n255\n" + "x" * 8193, "8193x1; each side must be 1 to 8192")
+    keep("pnm/width_over.pgm", "P5\n8193 1\n255\n" + "x" * 8193,
+         "8193x1; each side must be 1 to 8192")
     keep("pnm/height_over.pgm", "P5\n1 8193\n255\n" + "x" * 8193, "1x8193; each side")
     keep("pnm/width_huge.ppm", "P6\n99999999999999999999 1\n255\nabc", "the width is too large")
     keep("pnm/width_wraps_32_bits.ppm", "P6\n4294967297 1\n255\nabc", "the width is too large")
@@ -67,7 +68,8 @@ def make_pnm():
     keep("pnm/maxval_65535_cut.ppm", b"P6\n1 1\n65535\n\1\2\3\4\5", "cut short within the pixels")
     keep("pnm/p6_one_byte_short.ppm", "P6\n2 2\n255\n" + "x" * 11, "cut short within the pixels")
     keep("pnm/p5_one_byte_short.pgm", "P5\n4 4\n255\n" + "x" * 15, "cut short within the pixels")
-    keep("pnm/p5_sample_over.pgm", b"P5\n3 1\n100\n\0\x64\x65", "a sample is 101, over the maxval 100")
+    keep("pnm/p5_sample_over.pgm", b"P5\n3 1\n100\n\0\x64\x65",
+         "a sample is 101, over the maxval 100")
     keep("pnm/p6_sample_over.ppm", b"P6\n1 1\n1\n\0\1\2", "a sample is 2, over the maxval 1")
     keep("pnm/p5_wide_sample_over.pgm", struct.pack(">12sH", b"P5\n1 1\n1023\n", 1024),
          "a sample is 1024, over the maxval 1023")
@@ -75,12 +77,14 @@ def make_pnm():
     keep("pnm/p2_sample_negative.pgm", "P2\n2 1\n10\n1 -1\n", "a sample must be a decimal number")
     keep("pnm/p2_sample_letters.pgm", "P2\n2 1\n10\n1 x\n", "a sample must be a decimal number")
     keep("pnm/p2_sample_joined.pgm", "P2\n2 1\n10\n1,2\n", "a sample must be a decimal number")
-    keep("pnm/p2_too_few.pgm", "P2\n2 2\n10\n1 2 3\n", "line 5: the file is cut short, a sample is missing")
+    keep("pnm/p2_too_few.pgm", "P2\n2 2\n10\n1 2 3\n",
+         "line 5: the file is cut short, a sample is missing")
     keep("pnm/p3_too_few.ppm", "P3\n2 1\n255\n1 2 3 4 5\n", "a sample is missing")
     keep("pnm/p2_too_many.pgm", "P2\n2 1\n10\n1 2 3\n", "what follows is no picture")
     keep("pnm/p6_crlf_header.ppm", "P6\r\n1 1\r\n255\r\nabc", "what follows is no picture")
     keep("pnm/p5_trailing_junk.pgm", "P5\n1 1\n255\naJUNK", "what follows is no picture")
-    keep("pnm/second_picture_cut.pgm", "P5\n2 1\n255\nabP5\n2 1\n255\na", "cut short within the pixels")
+    keep("pnm/second_picture_cut.pgm", "P5\n2 1\n255\nabP5\n2 1\n255\na",
+         "cut short within the pixels")
     keep("pnm/second_header_cut.pgm", "P5\n2 1\n255\nabP5\n2 ", "the height is missing")
 
 
@@ -108,28 +112,38 @@ def make_y4m():
     bad("width_huge.y4m", "YUV4MPEG2 W4294967300 H2\nFRAME\n", "W4294967300 in the stream header")
     bad("width_negative.y4m", "YUV4MPEG2 W-4 H2\nFRAME\n", "W-4 in the stream header")
     bad("width_empty.y4m", "YUV4MPEG2 W H2\nFRAME\n", "W in the stream header")
-    bad("odd_width_422.y4m", b"YUV4MPEG2 W3 H2 C422\nFRAME\n" + bytes(16), "4:2:2 needs an even width")
-    bad("odd_width_420.y4m", b"YUV4MPEG2 W3 H2 C420\nFRAME\n" + bytes(10), "4:2:0 an even width and height")
-    bad("odd_height_420.y4m", b"YUV4MPEG2 W4 H3 C420\nFRAME\n" + bytes(20), "4:2:0 an even width and height")
+    bad("odd_width_422.y4m", b"YUV4MPEG2 W3 H2 C422\nFRAME\n" + bytes(16),
+        "4:2:2 needs an even width")
+    bad("odd_width_420.y4m", b"YUV4MPEG2 W3 H2 C420\nFRAME\n" + bytes(10),
+        "4:2:0 an even width and height")
+    bad("odd_height_420.y4m", b"YUV4MPEG2 W4 H3 C420\nFRAME\n" + bytes(20),
+        "4:2:0 an even width and height")
     bad("chroma_444.y4m", b"YUV4MPEG2 W4 H2 C444\nFRAME\n" + bytes(24), "chroma 'C444' is not read")
     bad("chroma_411.y4m", b"YUV4MPEG2 W4 H2 C411\nFRAME\n" + bytes(12), "chroma 'C411' is not read")
-    bad("chroma_10_bits.y4m", b"YUV4MPEG2 W4 H2 C420p10\nFRAME\n" + bytes(24), "chroma 'C420p10' is not read")
-    bad("range_unknown.y4m", "YUV4MPEG2 W4 H2 XCOLORRANGE=HALF\nFRAME\n", "unknown colour range 'XCOLORRANGE=HALF'")
+    bad("chroma_10_bits.y4m", b"YUV4MPEG2 W4 H2 C420p10\nFRAME\n" + bytes(24),
+        "chroma 'C420p10' is not read")
+    bad("range_unknown.y4m", "YUV4MPEG2 W4 H2 XCOLORRANGE=HALF\nFRAME\n",
+        "unknown colour range 'XCOLORRANGE=HALF'")
     bad("no_frame.y4m", head420, "it has no frame")
-    bad("frame_header_wrong.y4m", head420.encode() + b"FRAMES\n" + body420, "must begin with a line 'FRAME'")
-    bad("frame_header_missing.y4m", head420.encode() + b"\n" + body420, "must begin with a line 'FRAME'")
+    bad("frame_header_wrong.y4m", head420.encode() + b"FRAMES\n" + body420,
+        "must begin with a line 'FRAME'")
+    bad("frame_header_missing.y4m", head420.encode() + b"\n" + body420,
+        "must begin with a line 'FRAME'")
     bad("frame_header_cut.y4m", head420 + "FRA", "cut short within a frame header")
     bad("frame_one_byte_short.y4m", (head420.encode() + frame)[:-1], "frame 0 is cut short")
     bad("second_frame_short.y4m", head420.encode() + frame + frame[:-3], "frame 1 is cut short")
-    bad("trailing_junk.y4m", head420.encode() + frame + b"junk\n", "frame 1 must begin with a line 'FRAME'")
+    bad("trailing_junk.y4m", head420.encode() + frame + b"junk\n",
+        "frame 1 must begin with a line 'FRAME'")
     bad("largest_promised.y4m", "YUV4MPEG2 W8192 H8192 C422\nFRAME\nabc", "frame 0 is cut short")
 
 
 def make_raw():
-    keep("raw/half_a_frame.raw", bytes(8), "frame 0 is cut short: YUYV frames of 4x2 take 16 bytes, it has 8",
+    keep("raw/half_a_frame.raw", bytes(8),
+         "frame 0 is cut short: YUYV frames of 4x2 take 16 bytes, it has 8",
          "raw YUYV 4x2")
     keep("raw/second_frame_short.raw", bytes(31), "frame 1 is cut short", "raw YUYV 4x2")
-    keep("raw/one_byte_over.raw", bytes(13), "frame 1 is cut short: I420 frames of 4x2 take 12 bytes, it has 1",
+    keep("raw/one_byte_over.raw", bytes(13),
+         "frame 1 is cut short: I420 frames of 4x2 take 12 bytes, it has 1",
          "raw I420 4x2")
     keep("raw/empty.raw", b"", "the file is empty", "raw GRAY8 1x1")
     keep("raw/odd_width_422.raw", bytes(12), "cannot be 3x2", "raw UYVY 3x2")
@@ -161,7 +175,8 @@ def make_png():
     good("gray1.png", png(8, 1, 1, 0, b"\0\xa5"))
     good("grayalpha.png", png(2, 1, 8, 4, b"\0\x10\x80\x20\x00"))
     good("rgba.png", png(1, 1, 8, 6, b"\0\x01\x02\x03\x00"))
-    good("palette.png", png(2, 1, 8, 3, b"\0\x01\x00", before=chunk(b"PLTE", b"\x0a\x0b\x0c\x14\x15\x16")
+    good("palette.png",
+         png(2, 1, 8, 3, b"\0\x01\x00", before=chunk(b"PLTE", b"\x0a\x0b\x0c\x14\x15\x16")
                             + chunk(b"tRNS", b"\x80")))
     # Adam7, 2x2: pass 1 has (0, 0), pass 6 has (1, 0), pass 7 has row 1.
     good("interlaced.png", png(2, 2, 8, 0, b"\0\x01\0\x02\0\x03\x04", interlace=1))
@@ -185,10 +200,12 @@ def make_png():
     bad("palette_missing.png", png(2, 1, 8, 3, b"\0\0\0"), "PNG: ")
     bad("no_pixels.png", SIGNATURE + chunk(b"IHDR", struct.pack(">IIBBBBB", 3, 2, 8, 2, 0, 0, 0))
         + chunk(b"IEND", b""), "PNG: ")
-    bad("no_header.png", SIGNATURE + chunk(b"IDAT", zlib.compress(rgb)) + chunk(b"IEND", b""), "PNG: ")
+    bad("no_header.png", SIGNATURE + chunk(b"IDAT", zlib.compress(rgb)) + chunk(b"IEND", b""),
+        "PNG: ")
     bad("rows_missing.png", png(3, 3, 8, 2, rgb), "PNG: ")
     bad("filter_9.png", png(3, 2, 8, 2, b"\x09" + rgb[1:]), "PNG: ")
-    bad("pixels_not_zlib.png", whole.replace(zlib.compress(rgb), b"x" * len(zlib.compress(rgb))), "PNG: ")
+    bad("pixels_not_zlib.png", whole.replace(zlib.compress(rgb), b"x" * len(zlib.compress(rgb))),
+        "PNG: ")
     bad("pixels_crc.png", whole[:-16] + b"\0\0\0\0" + whole[-12:], "PNG: ")
     bad("no_end.png", png(3, 2, 8, 2, rgb, end=False), "the file is cut short")
     bad("chunk_length_huge.png", whole[:33] + b"\xff\xff\xff\xff" + whole[37:], "PNG: ")
@@ -224,7 +241,8 @@ def make_jpeg():
     bad("largest_promised.jpg", with_size(8192, 8192), "JPEG: ")
     bad("end_too_early.jpg", color[:scan + 20] + b"\xff\xd9", "JPEG: ")
     bad("twice_the_start.jpg", b"\xff\xd8" + color, "JPEG: ")
-    bad("precision_12.jpg", color.replace(b"\xff\xc0\x00\x11\x08", b"\xff\xc0\x00\x11\x0c"), "JPEG: ")
+    bad("precision_12.jpg", color.replace(b"\xff\xc0\x00\x11\x08", b"\xff\xc0\x00\x11\x0c"),
+        "JPEG: ")
     bad("cmyk.jpg", gray.replace(b"\xff\xc0\x00\x0b\x08\x00\x10\x00\x10\x01\x01\x11\x00",
                                  b"\xff\xc0\x00\x14\x08\x00\x10\x00\x10\x04\x01\x11\x00\x02\x11\x00"
                                  b"\x03\x11\x00\x04\x11\x00"), "neither gray nor YCbCr nor RGB")
@@ -248,7 +266,8 @@ def make_classes():
 
     bad("empty.classes", "", "the file is empty")
     bad("no_colors.classes", THRESHOLDS, "there is no section [Colors]")
-    bad("colors_misspelt.classes", COLORS.replace("Colors", "Colours") + THRESHOLDS, "there is no section [Colors]")
+    bad("colors_misspelt.classes", COLORS.replace("Colors", "Colours") + THRESHOLDS,
+        "there is no section [Colors]")
     bad("colors_empty.classes", "[Colors]\n\n[Thresholds]\n", "[Colors] has no entry")
     bad("no_thresholds.classes", COLORS, "there is no section [Thresholds]")
     bad("thresholds_misspelt.classes", COLORS + THRESHOLDS.replace("Thresholds", "Threshold"),
@@ -258,46 +277,66 @@ def make_classes():
     bad("threshold_without_color.classes", COLORS + THRESHOLDS + "(1:2,3:4,5:6)\n",
         "line 8: these thresholds have no colour")
     bad("nine_thresholds.classes", "[Colors]\n" + "(1,2,3) 0 1 a\n" * CLASS_MAX + "[Thresholds]\n"
-        + "(1:2,3:4,5:6)\n" * (CLASS_MAX + 1), f"line {2 * CLASS_MAX + 3}: these thresholds have no colour")
+        + "(1:2,3:4,5:6)\n" * (CLASS_MAX + 1),
+        f"line {2 * CLASS_MAX + 3}: these thresholds have no colour")
     bad("nine_colors.classes", "[Colors]\n" + "(1,2,3) 0 1 a\n" * (CLASS_MAX + 1) + "[Thresholds]\n"
-        + "(1:2,3:4,5:6)\n" * (CLASS_MAX + 1), "line 10: this program was built for at most 8 classes")
+        + "(1:2,3:4,5:6)\n" * (CLASS_MAX + 1),
+        "line 10: this program was built for at most 8 classes")
     bad("colors_twice.classes", COLORS + THRESHOLDS + COLORS, "a second time; join the two")
     bad("thresholds_twice.classes", COLORS + THRESHOLDS + THRESHOLDS, "a second time; join the two")
-    bad("display_color_256.classes", color("(256,0,0) 0.5 1 a"), "line 2: 256 is out of range, write 0 to 255")
+    bad("display_color_256.classes", color("(256,0,0) 0.5 1 a"),
+        "line 2: 256 is out of range, write 0 to 255")
     bad("display_color_negative.classes", color("(-1,0,0) 0.5 1 a"), "line 2: -1 is out of range")
-    bad("display_color_two_numbers.classes", color("(1,2) 0.5 1 a"), "a colour reads '(RED,GREEN,BLUE)")
+    bad("display_color_two_numbers.classes", color("(1,2) 0.5 1 a"),
+        "a colour reads '(RED,GREEN,BLUE)")
     bad("display_color_open.classes", color("(1,2,3 0.5 1 a"), "a colour reads '(RED,GREEN,BLUE)")
-    bad("display_color_letters.classes", color("(red,2,3) 0.5 1 a"), "a colour reads '(RED,GREEN,BLUE)")
+    bad("display_color_letters.classes", color("(red,2,3) 0.5 1 a"),
+        "a colour reads '(RED,GREEN,BLUE)")
     bad("merge_missing.classes", color("(1,2,3) orange"), "the merge density must be a number")
     bad("merge_negative.classes", color("(1,2,3) -0.5 1 a"), "the merge density must be a number")
     bad("merge_nan.classes", color("(1,2,3) nan 1 a"), "the merge density must be a number")
     bad("merge_infinite.classes", color("(1,2,3) 1e999 1 a"), "the merge density must be a number")
-    bad("merge_two_points.classes", color("(1,2,3) 0.5.1 1 a"), "the merge density must be a number")
-    bad("expected_missing.classes", color("(1,2,3) 0.5 orange"), "the expected number of blobs must be")
-    bad("expected_negative.classes", color("(1,2,3) 0.5 -1 a"), "the expected number of blobs must be")
-    bad("expected_huge.classes", color("(1,2,3) 0.5 99999999999999999999 a"), "the expected number of blobs must be")
+    bad("merge_two_points.classes", color("(1,2,3) 0.5.1 1 a"),
+        "the merge density must be a number")
+    bad("expected_missing.classes", color("(1,2,3) 0.5 orange"),
+        "the expected number of blobs must be")
+    bad("expected_negative.classes", color("(1,2,3) 0.5 -1 a"),
+        "the expected number of blobs must be")
+    bad("expected_huge.classes", color("(1,2,3) 0.5 99999999999999999999 a"),
+        "the expected number of blobs must be")
     bad("expected_joined.classes", color("(1,2,3) 0.5 1a"), "the expected number of blobs must be")
     bad("name_missing.classes", color("(1,2,3) 0.5 1"), "the colour has no name")
-    bad("name_64_long.classes", color("(1,2,3) 0.5 1 " + "n" * 64), "the name is longer than 63 characters")
-    bad("threshold_256.classes", threshold("(0:256,0:255,0:255)"), "line 5: 256 is out of range, write 0 to 255")
+    bad("name_64_long.classes", color("(1,2,3) 0.5 1 " + "n" * 64),
+        "the name is longer than 63 characters")
+    bad("threshold_256.classes", threshold("(0:256,0:255,0:255)"),
+        "line 5: 256 is out of range, write 0 to 255")
     bad("threshold_negative.classes", threshold("(0:5,-3:9,0:255)"), "line 5: -3 is out of range")
-    bad("threshold_wraps.classes", threshold("(0:4294967300,3:9,0:255)"), "line 5: 4294967300 is out of range")
+    bad("threshold_wraps.classes", threshold("(0:4294967300,3:9,0:255)"),
+        "line 5: 4294967300 is out of range")
     bad("y_min_over_max.classes", threshold("(6:5,0:255,0:255)"), "a minimum is over its maximum")
-    bad("u_min_over_max.classes", threshold("(0:255,200:100,0:255)"), "a minimum is over its maximum")
+    bad("u_min_over_max.classes", threshold("(0:255,200:100,0:255)"),
+        "a minimum is over its maximum")
     bad("v_min_over_max.classes", threshold("(0:255,0:255,1:0)"), "a minimum is over its maximum")
     bad("threshold_commas.classes", threshold("(1,2,3,4,5,6)"), "thresholds read '(YMIN:YMAX")
     bad("threshold_four_numbers.classes", threshold("(1:2,3:4)"), "thresholds read '(YMIN:YMAX")
     bad("threshold_open.classes", threshold("(1:2,3:4,5:6"), "thresholds read '(YMIN:YMAX")
     bad("threshold_letters.classes", threshold("(a:b,c:d,e:f)"), "thresholds read '(YMIN:YMAX")
-    bad("text_within_section.classes", threshold("orange is nice"), "line 5: neither an entry '(...)'")
-    bad("range_unknown.classes", "#! range half\n" + COLORS + THRESHOLDS, "unknown colour range 'half'")
+    bad("text_within_section.classes", threshold("orange is nice"),
+        "line 5: neither an entry '(...)'")
+    bad("range_unknown.classes", "#! range half\n" + COLORS + THRESHOLDS,
+        "unknown colour range 'half'")
     bad("range_empty.classes", "#! range\n" + COLORS + THRESHOLDS, "unknown colour range ''")
-    bad("range_twice.classes", "#! range full\n#! range full\n" + COLORS + THRESHOLDS, "line 2: the colour range is given a second time")
-    bad("addition_unknown.classes", "#! gamma 2.2\n" + COLORS + THRESHOLDS, "'#!' is followed by 'range full'")
-    bad("zero_byte.classes", COLORS.encode() + b"\0\n" + THRESHOLDS.encode(), "line 4: a control character")
+    bad("range_twice.classes", "#! range full\n#! range full\n" + COLORS + THRESHOLDS,
+        "line 2: the colour range is given a second time")
+    bad("addition_unknown.classes", "#! gamma 2.2\n" + COLORS + THRESHOLDS,
+        "'#!' is followed by 'range full'")
+    bad("zero_byte.classes", COLORS.encode() + b"\0\n" + THRESHOLDS.encode(),
+        "line 4: a control character")
     bad("binary.classes", bytes(range(1, 200)), "a control character")
-    bad("carriage_return_within.classes", (COLORS + THRESHOLDS).replace("\n", "\r"), "a control character")
-    bad("line_256_long.classes", "#" + "c" * 255 + "\n" + COLORS + THRESHOLDS, "line 1: longer than 255 characters")
+    bad("carriage_return_within.classes", (COLORS + THRESHOLDS).replace("\n", "\r"),
+        "a control character")
+    bad("line_256_long.classes", "#" + "c" * 255 + "\n" + COLORS + THRESHOLDS,
+        "line 1: longer than 255 characters")
 
 
 def make_tables():
@@ -316,7 +355,8 @@ def make_tables():
     bad("size_two_numbers.tm", b"TMAP\nYUV8\n16 64\n" + bytes(cells), "three powers of two")
     bad("size_four_numbers.tm", b"TMAP\nYUV8\n4 8 8 8\n" + bytes(cells), "three powers of two")
     bad("size_zero.tm", b"TMAP\nYUV8\n0 64 64\n" + bytes(cells), "three powers of two")
-    bad("size_not_power_of_two.tm", b"TMAP\nYUV8\n4 7 8\n" + bytes(4 * 7 * 8), "three powers of two")
+    bad("size_not_power_of_two.tm", b"TMAP\nYUV8\n4 7 8\n" + bytes(4 * 7 * 8),
+        "three powers of two")
     bad("size_over_256.tm", b"TMAP\nYUV8\n512 1 1\n" + bytes(512), "three powers of two")
     bad("size_negative.tm", b"TMAP\nYUV8\n-4 8 8\n" + bytes(cells), "three powers of two")
     bad("size_huge.tm", b"TMAP\nYUV8\n99999999999999999999 1 1\n\0", "three powers of two")
@@ -325,7 +365,8 @@ def make_tables():
     bad("one_cell_over.tm", table + b"\1", "behind the 256 cells")
     bad("label_9.tm", table[:-1] + b"\x09", "has label 9, but this program was built for at most 8")
     bad("all_background.tm", b"TMAP\nYUV8\n4 8 8\n" + bytes(256), "every label of the table is 0")
-    bad("largest_promised.tm", b"TMAP\nYUV8\n256 256 256\n" + bytes(10), "cut short: 10 of 16777216 cells")
+    bad("largest_promised.tm", b"TMAP\nYUV8\n256 256 256\n" + bytes(10),
+        "cut short: 10 of 16777216 cells")
 
 
 def main():

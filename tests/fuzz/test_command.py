@@ -54,24 +54,32 @@ def check_corpus(folder):
 
 def check_pipe():
     """The same over standard input, which cannot seek."""
-    for name in ("pnm/p6_one_byte_short.ppm", "y4m/second_frame_short.y4m", "png/no_end.png", "jpeg/half.jpg"):
+    for name in ("pnm/p6_one_byte_short.ppm", "y4m/second_frame_short.y4m", "png/no_end.png",
+                 "jpeg/half.jpg"):
         got = pel("convert", "-", "-", stdin=(CORPUS / name).read_bytes())
-        check(got.returncode == 1 and got.stderr.startswith(b"pel: standard input: "), f"{name} by pipe")
+        check(got.returncode == 1 and got.stderr.startswith(b"pel: standard input: "),
+              f"{name} by pipe")
     for name in ("binary.ppm", "rgb.png", "color.jpg", "video422.y4m"):
         data = (CORPUS / "good" / name).read_bytes()
         piped = pel("convert", "-", "-", stdin=data)
-        check(piped.returncode == 0 and piped.stdout == pel("convert", CORPUS / "good" / name, "-").stdout
+        check(piped.returncode == 0
+              and piped.stdout == pel("convert", CORPUS / "good" / name, "-").stdout
               and piped.stdout.startswith(b"P6\n"), f"{name} by pipe")
 
 
 def check_usage(folder):
     good = CORPUS / "good" / "rgb.png"
-    for words in ([], [good], [good, folder / "a.gif"], [good, folder / "a.raw"], ["--to", "YUV9", good, "-"],
-                  ["--raw", "YUYV"], ["--raw", "YUYV", "0x2", good, "-"], ["--raw", "YUYV", "3x2", good, "-"],
-                  ["--raw", "YUYV", "8193x2", good, "-"], ["--raw", "YUYV", "4294967298x2", good, "-"],
-                  ["--range", "half", good, "-"], ["--frame", "-1", good, "-"], ["--frame", "x", good, "-"],
+    for words in ([], [good], [good, folder / "a.gif"], [good, folder / "a.raw"],
+                  ["--to", "YUV9", good, "-"],
+                  ["--raw", "YUYV"], ["--raw", "YUYV", "0x2", good, "-"],
+                  ["--raw", "YUYV", "3x2", good, "-"],
+                  ["--raw", "YUYV", "8193x2", good, "-"],
+                  ["--raw", "YUYV", "4294967298x2", good, "-"],
+                  ["--range", "half", good, "-"], ["--frame", "-1", good, "-"],
+                  ["--frame", "x", good, "-"],
                   ["--c-array", "9a", "--to", "YUYV", good, "-"], ["--c-array", "a", good, "-"],
-                  ["--to", "YUYV", good, folder / "a.png"], ["--to", "png", good, folder / "a.ppm"], ["--nonsense"]):
+                  ["--to", "YUYV", good, folder / "a.png"], ["--to", "png", good, folder / "a.ppm"],
+                  ["--nonsense"]):
         got = pel("convert", *words)
         check(got.returncode == 2 and got.stderr.startswith(b"pel: ") and got.stdout == b"",
               f"usage {words}: {got.returncode} {got.stderr}")
@@ -85,21 +93,27 @@ def check_files(folder):
     copy = folder / "same.ppm"
     copy.write_bytes(good.read_bytes())
     got = pel("convert", copy, copy)
-    check(got.returncode == 1 and b"same file" in got.stderr and copy.read_bytes() == good.read_bytes(),
+    check(got.returncode == 1 and b"same file" in got.stderr
+          and copy.read_bytes() == good.read_bytes(),
           "IN is OUT")
     two = good.read_bytes() * 2
     got = pel("convert", "-", folder / "two.png", stdin=two)
     check(got.returncode == 1 and not (folder / "two.png").exists(), "two pictures in a PNG")
     got = pel("convert", "--frame", "2", "-", folder / "third.ppm", stdin=two)
-    check(got.returncode == 1 and b"there is no frame 2; the last one is 1" in got.stderr, "a frame too far")
+    check(got.returncode == 1 and b"there is no frame 2; the last one is 1" in got.stderr,
+          "a frame too far")
     got = pel("convert", "--frame", "1", "-", folder / "second.ppm", stdin=two)
-    check(got.returncode == 0 and (folder / "second.ppm").read_bytes() == good.read_bytes(), "the second frame")
+    check(got.returncode == 0 and (folder / "second.ppm").read_bytes() == good.read_bytes(),
+          "the second frame")
     got = pel("convert", "--to", "YUYV", good, "-")
-    check(got.returncode == 1 and b"4:2:2 needs an even width" in got.stderr, "an odd width with 4:2:2")
+    check(got.returncode == 1 and b"4:2:2 needs an even width" in got.stderr,
+          "an odd width with 4:2:2")
     if os.access("/dev/full", os.W_OK):
-        for words in (["--to", "ppm"], ["--to", "png"], ["--to", "RGB888"], ["--to", "RGB888", "--c-array", "a"]):
+        for words in (["--to", "ppm"], ["--to", "png"], ["--to", "RGB888"],
+                      ["--to", "RGB888", "--c-array", "a"]):
             got = pel("convert", *words, good, "/dev/full")
-            check(got.returncode == 1 and b"/dev/full" in got.stderr, f"a full disk {words}: {got.stderr}")
+            check(got.returncode == 1 and b"/dev/full" in got.stderr,
+                  f"a full disk {words}: {got.stderr}")
 
 
 def check_c_array(folder):
@@ -112,7 +126,8 @@ def check_c_array(folder):
                     "    printf(\"%d %d \", shot_width, shot_height);\n"
                     "    for (unsigned i = 0; i < sizeof shot; i++) { printf(\"%d \", shot[i]); }\n    return 0;\n}\n")
     compiler = os.environ.get("PEL_CC", "cc")
-    built = subprocess.run([compiler, "-std=c99", "-Wall", "-Wextra", "-Werror", main, "-o", program],
+    built = subprocess.run([compiler, "-std=c99", "-Wall", "-Wextra", "-Werror", main, "-o",
+                            program],
                            capture_output=True)
     check(built.returncode == 0, f"C array: {built.stderr}")
     if built.returncode == 0:
@@ -133,7 +148,8 @@ def check_against_pillow(folder):
         check(got.returncode == 0, f"{path.name}: {got.stderr}")
         ours = numpy.asarray(Image.open(out)).astype(int)
         theirs = numpy.asarray(Image.open(path).convert("RGB")).astype(int)
-        check(ours.shape == theirs.shape and abs(ours - theirs).max() <= 2, f"{path.name}: other colours")
+        check(ours.shape == theirs.shape and abs(ours - theirs).max() <= 2,
+              f"{path.name}: other colours")
     generator = numpy.random.default_rng(7)
     for mode, channels in (("L", 1), ("LA", 2), ("RGB", 3), ("RGBA", 4)):
         made = generator.integers(0, 256, (23, 31, channels), numpy.uint8)

@@ -5,7 +5,8 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "commands"))
 
-from peltest import (DEMO, classify, collect, contract_rows, equal, main, ok, parse_pnm, parse_rows,  # noqa: E402
+from peltest import (DEMO, classify, collect, contract_rows, equal, main, ok, parse_pnm, parse_rows,
+                     # noqa: E402
                      read_classes, read_pnm, true)
 
 PICTURE = os.path.join(DEMO, "robot.ppm")

@@ -13,7 +13,8 @@ from peltest import (classify, collect, contract_rows, equal, main, ok, parse_ro
 VIEWS = [
     ["--seed", "1"],
     ["--seed", "2", "--height", "900", "--pitch", "50", "--balls", "8", "--cones", "5"],
-    ["--seed", "3", "--height", "60", "--pitch", "0", "--fov", "90", "--balls", "2", "--cones", "1"],
+    ["--seed", "3", "--height", "60", "--pitch", "0", "--fov", "90", "--balls", "2", "--cones",
+     "1"],
     ["--seed", "4", "--height", "1200", "--pitch", "90", "--balls", "3", "--cones", "3"],
     ["--seed", "5", "--size", "161x121", "--pitch", "25.5", "--fov", "40.25"],
 ]
@@ -102,7 +103,8 @@ def test_a_ball_covers_the_pixels_that_geometry_says():
         true(covered > 30, "the ball of seed %d is in sight: %d" % (seed, covered))
         # directions have 16 fraction bits: a pixel that the edge just touches may fall either way
         equal(abs(covered - ball["area"]) <= 4 and different <= 4, True,
-              "seed %d: %d covered, %d different, area %d" % (seed, covered, different, ball["area"]))
+              "seed %d: %d covered, %d different, area %d" % (seed, covered, different,
+                                                              ball["area"]))
         checked += 1
     equal(checked, 5)
 
@@ -130,12 +132,14 @@ def test_noise_is_the_stated_one():
     count, total, squares = 0, 0, 0
     for i in range(0, len(base), 7):
         if 40 < base[i] < 215:
-            words = [fmix((6 ^ 0x6E015E) + 0x9E3779B9 * (3 * i + k + 1) & 0xFFFFFFFF) for k in range(3)]
+            words = [fmix((6 ^ 0x6E015E) + 0x9E3779B9 * (3 * i + k + 1) & 0xFFFFFFFF)
+                     for k in range(3)]
             noise = (sum(sum(word.to_bytes(4, "little")) for word in words) - 1530) * 5 / 256
             true(abs(got[i] - base[i] - noise) <= 1, "sample %d" % i)
             count, total, squares = count + 1, total + noise, squares + noise * noise
     true(count > 10000, "samples")
-    true(abs(total / count) < 0.2 and abs(math.sqrt(squares / count) - 5) < 0.1, "mean and deviation")
+    true(abs(total / count) < 0.2 and abs(math.sqrt(squares / count) - 5) < 0.1,
+         "mean and deviation")
 
 
 def test_blur_is_a_box():

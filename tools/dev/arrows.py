@@ -30,7 +30,7 @@ ARROWS = {
     "config": [],
 }
 # A file MODULE_part.c belongs to MODULE; these bear another name.
-PARTS = {"blob": "blobs", "classifier": "classify", "format": "image"}
+PARTS = {"blob": "blobs", "classifier": "classify", "format": "image", "frames": "image"}
 # lib/ runs where there is nothing but a compiler.
 LIB_SYSTEM = {"limits.h", "stdbool.h", "stddef.h", "stdint.h"}
 # Intrinsics, for the fast variants of the row kernels.

@@ -15,7 +15,8 @@ ALLOWED = {"lib/src/image.c", "tools/pack.c"}
 def main():
     header = (ROOT / "lib/include/pel/image.h").read_text()
     body = re.search(r"typedef enum pel_format \{(.*?)\} pel_format;", header, re.S).group(1)
-    names = [name for name in re.findall(r"^\s*(PEL_\w+)", body, re.M) if name != "PEL_FORMAT_COUNT"]
+    names = [name for name in re.findall(r"^\s*(PEL_\w+)", body, re.M)
+             if name != "PEL_FORMAT_COUNT"]
     either = "|".join(names)
     fault = re.compile(rf"\bcase\s+(?:{either})\b|\[\s*(?:{either})\s*\]\s*=")
 

@@ -1,6 +1,7 @@
 # Sourced by demo.sh and test.sh: finds out what the machine lacks and installs it.
 
 missing=''
+jobs=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) # for everybody who builds
 
 # need PACKAGE COMMAND [ARGUMENT...]: the package is missing if the command fails.
 need() {
@@ -16,6 +17,19 @@ need() {
 
 has() {
     command -v "$1"
+}
+
+# sanitizes COMPILER FILE: whether it can link the sanitizers' libraries; FILE is overwritten.
+sanitizes() {
+    echo 'int main(void) { return 0; }' |
+        "$1" -fsanitize=address,undefined -x c - -o "$2" >/dev/null 2>&1
+}
+
+# say_unsanitized COMPILER: what is not tested then, in a line that nobody overlooks.
+say_unsanitized() {
+    echo "SKIPPED: $1 cannot link AddressSanitizer and UndefinedBehaviorSanitizer; the tests that" \
+        "need them are left out or run without them. Install libasan and libubsan" \
+        "(Debian: libgcc-N-dev, where N is the number in '$1 -dumpversion')."
 }
 
 has_header() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Adds up what the tests of one or more build folders said and prints one table.
 
-    summary.py [--check NAME:passed|failed]... [--run PREFIX:BUILD_DIR]...
+    summary.py [--check NAME:passed|failed|skipped]... [--run PREFIX:BUILD_DIR]...
 
 A test counts what its closing line says, `N passed, N failed[, N skipped]`, as found in ctest's
 log. A test without that line, or one that ended badly although it counted no failure, or that
@@ -78,8 +78,9 @@ def main():
     rows, failures = [], []
     for check in arguments.check:
         name, verdict = check.rsplit(":", 1)
+        skipped = verdict == "skipped"
         good = verdict == "passed"
-        rows.append((name, int(good), int(not good), 0, 0.0, ""))
+        rows.append((name, int(good), int(not good and not skipped), int(skipped), 0.0, ""))
     for run in arguments.run:
         prefix, build = run.split(":", 1)
         build = pathlib.Path(build)

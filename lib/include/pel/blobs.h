@@ -2,10 +2,10 @@
  * Blobs: connected regions of one class, found while the rows stream by.
  *
  * A row of labels becomes runs (maximal stretches of one label), each run joins the blobs of the
- * runs it touches in the row above (union-find with path compression), and a blob that the newest row
- * did not touch is closed: its numbers are final and it is reported at once, before the frame has
- * ended. Two rows of runs and the open blobs are all the memory there is: it grows with the width,
- * never with the height.
+ * runs it touches in the row above (union-find with path compression), and a blob that the newest
+ * row did not touch is closed: its numbers are final and it is reported at once, before the frame
+ * has ended. Two rows of runs and the open blobs are all the memory there is: it grows with the
+ * width, never with the height.
  *
  *     static uint64_t work[PEL_BLOBS_WORDS(320, 32, PEL_MEASURE_MOMENTS)];
  *     static pel_blob found[16];
@@ -67,8 +67,8 @@ typedef struct pel_blob {
 
 enum { PEL_EDGE_LEFT = 1, PEL_EDGE_RIGHT = 2, PEL_EDGE_TOP = 4, PEL_EDGE_BOTTOM = 8 };
 
-/* What to measure beside area, box, sum_x and sum_y, which are always there. Costs per open blob, and
- * time per run (per pixel of the class for colour). */
+/* What to measure beside area, box, sum_x and sum_y, which are always there. Costs per open blob,
+ * and time per run (per pixel of the class for colour). */
 enum {
     PEL_MEASURE_MOMENTS = 1, /* 24 bytes: sum_xx, sum_xy, sum_yy, for angle and roundness */
     PEL_MEASURE_OUTLINE = 2, /* 8 bytes: perimeter, holes */
@@ -77,15 +77,15 @@ enum {
 };
 
 /* The centroid (sum_x / area, sum_y / area) in 1/65536 pixel, rounded to nearest, halves upward.
- * (0, 0) is the centre of the first pixel. No area gives 0; a NULL output is left out. Here and below a
- * NULL blob is one of which nothing is known. */
+ * (0, 0) is the centre of the first pixel. No area gives 0; a NULL output is left out. Here and
+ * below a NULL blob is one of which nothing is known. */
 void pel_blob_centroid_q16(const pel_blob *blob, int32_t *x_q16, int32_t *y_q16);
 
 /*
  * The direction of the long axis in 1/65536 of a turn, -16384 <= angle < 16384: 0 along x, 8192 =
  * 45 degrees down to the right (y points down). Half the atan2 of the second central moments,
- * 0.5 * atan2(2 c11, c20 - c02) (Horn, Robot Vision, 1986); within 1 unit of it. 0 if no axis stands
- * out (discs, squares). Needs PEL_MEASURE_MOMENTS.
+ * 0.5 * atan2(2 c11, c20 - c02) (Horn, Robot Vision, 1986); within 1 unit of it. 0 if no axis
+ * stands out (discs, squares). Needs PEL_MEASURE_MOMENTS.
  */
 int16_t pel_blob_angle_turn16(const pel_blob *blob);
 
@@ -112,10 +112,10 @@ uint16_t pel_blob_compactness_q15(const pel_blob *blob);
 
 /*
  * Which blobs count. Every bound belongs to the allowed interval; 0 in a `max` means no bound, so a
- * zeroed filter lets everything pass. Aspect is box width / box height, compared exactly; density and
- * elongation are compared as the functions above give them. Elongation needs PEL_MEASURE_MOMENTS (without
- * it pel_blobs_begin refuses such a filter) and
- * costs two square roots per blob; the others cost nearly nothing.
+ * zeroed filter lets everything pass. Aspect is box width / box height, compared exactly; density
+ * and elongation are compared as the functions above give them. Elongation needs
+ * PEL_MEASURE_MOMENTS (without it pel_blobs_begin refuses such a filter) and costs two square roots
+ * per blob; the others cost nearly nothing.
  */
 typedef struct pel_blob_filter {
     uint32_t area_min, area_max;               /* pixels */
@@ -163,8 +163,8 @@ uint16_t pel_find_runs(const uint8_t *labels, uint16_t width, pel_run *runs);
 
 /*
  * Bytes of working memory: two rows of runs with their blobs, 12 (width + 1), and 24 bytes per open
- * blob plus what is measured. The macro is a constant expression, for arrays; PEL_BLOBS_WORDS is the
- * same in elements of uint64_t, which have the alignment that is needed.
+ * blob plus what is measured. The macro is a constant expression, for arrays; PEL_BLOBS_WORDS is
+ * the same in elements of uint64_t, which have the alignment that is needed.
  */
 #define PEL_BLOBS_SLOT_BYTES(measure)                                                              \
     (24u + (((measure)&1u) ? 24u : 0u) + (((measure)&2u) ? 8u : 0u) + (((measure)&4u) ? 12u : 0u))
@@ -201,7 +201,8 @@ typedef struct pel_blobs_config {
 } pel_blobs_config;
 
 /* Counters of a frame, final after pel_blobs_end. Every coloured pixel of the frame is in exactly
- * one of: the blobs kept (with results_max 0: the blobs found), filtered_px, dropped_px, lost_px. */
+ * one of: the blobs kept (with results_max 0: the blobs found), filtered_px, dropped_px, lost_px.
+ */
 typedef struct pel_blobs_counts {
     uint32_t found;       /* blobs that passed the filter */
     uint32_t dropped;     /* of those, not in `results` because it was full of larger ones */
@@ -213,8 +214,8 @@ typedef struct pel_blobs_counts {
     uint16_t open_peak;  /* the most blobs that were open at once: what open_max needs to be */
 } pel_blobs_counts;
 
-/* The finder. The caller places it (120 bytes on 32-bit machines), zeroes it unless pel_blobs_begin is the
- * first to see it, and reads `counts`; the rest is private. */
+/* The finder. The caller places it (120 bytes on 32-bit machines), zeroes it unless pel_blobs_begin
+ * is the first to see it, and reads `counts`; the rest is private. */
 typedef struct pel_blobs {
     pel_blobs_config config;
     pel_blobs_counts counts;
@@ -238,21 +239,23 @@ typedef struct pel_blobs {
 /*
  * Starts a frame; any frame in progress is forgotten. The config is copied.
  *
- * PEL_ERR_ARG: null pointer, misaligned work, finder, work and results that overlap, connectivity not 0,
- * 4, 8, unknown measure bits, open_max out of range, a filter for what is not measured. PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX, or so large that a 32-bit sum could
- * overflow (width * width * height or width * height * height over 2^33: 1920 x 1080 and 2048 x 2048
- * are allowed, 2592 x 1944 is not). PEL_ERR_SPACE: work_bytes too small.
+ * PEL_ERR_ARG: null pointer, misaligned work, finder, work and results that overlap, connectivity
+ * not 0, 4, 8, unknown measure bits, open_max out of range, a filter for what is not measured.
+ * PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX, or so large that a 32-bit sum could overflow
+ * (width * width * height or width * height * height over 2^33: 1920 x 1080 and 2048 x 2048 are
+ * allowed, 2592 x 1944 is not). PEL_ERR_SPACE: work_bytes too small.
  */
 pel_status pel_blobs_begin(pel_blobs *blobs, const pel_blobs_config *config);
 
 /*
  * Adds row y: `width` labels, and for PEL_MEASURE_COLOR the row of pixels that they were made from
- * (of the same colour width; RGB is read in the row's range; without colour ignored, may be NULL). Both
- * may be overwritten afterwards.
+ * (of the same colour width; RGB is read in the row's range; without colour ignored, may be NULL).
+ * Both may be overwritten afterwards.
  *
  * PEL_TRUNCATED: done, but a blob of this row was lost for want of open blobs. PEL_ERR_ORDER: not
- * the row that is due; the frame goes on unharmed. PEL_ERR_ARG: null pointer, or labels in memory that the
- * finder writes. PEL_ERR_FORMAT: the pixels have another width; others as of pel_crow_check.
+ * the row that is due; the frame goes on unharmed. PEL_ERR_ARG: null pointer, or labels in memory
+ * that the finder writes. PEL_ERR_FORMAT: the pixels have another width; others as of
+ * pel_crow_check.
  */
 pel_status pel_blobs_row(pel_blobs *blobs, uint16_t y, const uint8_t *labels,
                          const pel_crow *pixels);
@@ -265,9 +268,10 @@ pel_status pel_blobs_row(pel_blobs *blobs, uint16_t y, const uint8_t *labels,
 pel_status pel_blobs_end(pel_blobs *blobs, uint32_t *count);
 
 /*
- * A whole frame: begin, classify and add every row, end. `labels` is scratch for one row, colour width
- * bytes; the size in `config` must be the colour size of the view. Statuses of the three calls;
- * also PEL_ERR_FORMAT where the view and the classifier do not fit, PEL_ERR_RANGE where sizes differ.
+ * A whole frame: begin, classify and add every row, end. `labels` is scratch for one row, colour
+ * width bytes; the size in `config` must be the colour size of the view. Statuses of the three
+ * calls; also PEL_ERR_FORMAT where the view and the classifier do not fit, PEL_ERR_RANGE where
+ * sizes differ.
  */
 pel_status pel_blobs_frame(pel_blobs *blobs, const pel_blobs_config *config,
                            const pel_classifier *classifier, const pel_cview *view, uint8_t *labels,
@@ -275,8 +279,8 @@ pel_status pel_blobs_frame(pel_blobs *blobs, const pel_blobs_config *config,
 
 /* ---- Lists of blobs ------------------------------------------------------------------------ */
 
-/* Sorts by area, largest first; then by y0, x0, class_index, sum_y, sum_x, smallest first. Heap sort:
- * n log n at worst, no memory. A NULL list is left alone. */
+/* Sorts by area, largest first; then by y0, x0, class_index, sum_y, sum_x, smallest first. Heap
+ * sort: n log n at worst, no memory. A NULL list is left alone. */
 void pel_blobs_sort(pel_blob *blobs, uint32_t count);
 
 /* `into` becomes the union of two blobs of disjoint pixels: sums, perimeter and holes add up, the
@@ -292,8 +296,9 @@ void pel_blob_merge(pel_blob *into, const pel_blob *from);
 uint32_t pel_blobs_merge_density(pel_blob *blobs, uint32_t count, uint16_t density_q15);
 
 /*
- * Margin merge: two blobs of a class become one where their boxes overlap after one of them has grown
- * by margin_px on every side; in the same order, and as often, as above. Returns the new count.
+ * Margin merge: two blobs of a class become one where their boxes overlap after one of them has
+ * grown by margin_px on every side; in the same order, and as often, as above. Returns the new
+ * count.
  */
 uint32_t pel_blobs_merge_margin(pel_blob *blobs, uint32_t count, uint16_t margin_px);
 

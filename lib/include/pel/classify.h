@@ -3,11 +3,11 @@
  *
  * A label is one byte: 0 = no class (background), c + 1 = class c. Two kinds of classifier give it:
  *
- *   Boxes   A class is a box in YCbCr. Three tables of 256 masks, one for each of Y, U and V, hold a
- *           bit per class; the AND of three look-ups has the bit of every class whose box holds the
- *           colour, whatever the number of classes. Where boxes overlap the lowest class wins.
- *           (Bruce, Balch, Veloso: Fast and inexpensive color image segmentation for interactive
- *           robots, IROS 2000.) 768 bytes for 8 classes.
+ *   Boxes   A class is a box in YCbCr. Three tables of 256 masks, one for each of Y, U and V,
+ *           hold a bit per class; the AND of three look-ups has the bit of every class whose box
+ *           holds the colour, whatever the number of classes. Where boxes overlap the lowest class
+ *           wins. (Bruce, Balch, Veloso: Fast and inexpensive color image segmentation for
+ *           interactive robots, IROS 2000.) 768 bytes for 8 classes.
  *   Table   A 3-D look-up table with a label per cell takes any decision: nearest neighbour,
  *           Gaussian, tree. 3+5+5 bits = 8 KiB, 4+6+6 = 64 KiB.
  */
@@ -56,10 +56,10 @@ typedef struct pel_lut {
 size_t pel_lut_bytes(unsigned y_bits, unsigned u_bits, unsigned v_bits);
 
 /*
- * What classifies: boxes, or, where boxes is NULL, a look-up table. `range` is the colour range that
- * the classes were made for; a YCbCr row of the other range is refused, RGB rows are converted to it.
- * `relabel`, if not NULL, is a table of 256 bytes applied to every label after that, so that several
- * boxes or cells can stand for one colour. Zero value: refused (no classes).
+ * What classifies: boxes, or, where boxes is NULL, a look-up table. `range` is the colour range
+ * that the classes were made for; a YCbCr row of the other range is refused, RGB rows are converted
+ * to it. `relabel`, if not NULL, is a table of 256 bytes applied to every label after that, so that
+ * several boxes or cells can stand for one colour. Zero value: refused (no classes).
  */
 typedef struct pel_classifier {
     const pel_boxes *boxes;

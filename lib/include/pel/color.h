@@ -15,10 +15,12 @@ extern "C" {
 #endif
 
 /*
- * RGB to YCbCr, ITU-R BT.601 (JFIF 1.02 for the full range). With Y' = (299 R + 587 G + 114 B) / 1000
- * unrounded:
- *   full     Y = Y'                   U = 128 + (B - Y') / 1.772            V = 128 + (R - Y') / 1.402
- *   limited  Y = 16 + Y' * 219/255    U = 128 + (B - Y') / 1.772 * 224/255  V likewise
+ * RGB to YCbCr, ITU-R BT.601 (JFIF 1.02 for the full range). With Y' = (299 R + 587 G + 114 B) /
+ * 1000 unrounded:
+ *
+ *   full     Y = Y'                 U = 128 + (B - Y') / 1.772            V = 128 + (R-Y') / 1.402
+ *   limited  Y = 16 + Y' * 219/255  U = 128 + (B - Y') / 1.772 * 224/255  V likewise
+ *
  * each rounded to nearest, halves upward, limited to 0..255. Equal to exact rational arithmetic for
  * all 2^24 colours.
  */
@@ -34,9 +36,9 @@ pel_status pel_ycbcr_to_rgb_row(const uint8_t *ycbcr, uint8_t *rgb, uint16_t wid
                                 pel_range range);
 
 /*
- * RGB to normalised RGB (chromaticity): each channel * 255 / (R + G + B), rounded to nearest, halves
- * upward: independent of the brightness of the light. Where R + G + B < sum_min (0..765) the colour
- * is too dark to tell and becomes gray, 85 85 85; black always does.
+ * RGB to normalised RGB (chromaticity): each channel * 255 / (R + G + B), rounded to nearest,
+ * halves upward: independent of the brightness of the light. Where R + G + B < sum_min (0..765) the
+ * colour is too dark to tell and becomes gray, 85 85 85; black always does.
  */
 pel_status pel_rgb_to_nrgb_row(const uint8_t *rgb, uint8_t *nrgb, uint16_t width, uint16_t sum_min);
 

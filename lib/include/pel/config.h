@@ -16,8 +16,8 @@
 #define PEL_CLASS_MAX 8
 #endif
 
-/* PEL_FOR_CLASSES gives a function a name of its own for each choice, so that a program and a library
- * that do not agree fail to link instead of reading each other's tables wrongly. */
+/* PEL_FOR_CLASSES gives a function a name of its own for each choice, so that a program and a
+ * library that do not agree fail to link instead of reading each other's tables wrongly. */
 #if PEL_CLASS_MAX == 8
 typedef uint8_t pel_class_mask;
 #define PEL_FOR_CLASSES(name) name

@@ -40,8 +40,9 @@ int16_t pel_atan2_turn16(int32_t y, int32_t x);
 
 /*
  * 2^32 / divisor, rounded to nearest, halves upward; divisor 2..2^32-1. For divisor 0 and 1 the
- * result saturates to 2^32-1. Exact. With it a division by the same number becomes a multiplication:
- * (value * reciprocal) >> 32 is floor(value / divisor) or one off for any 32-bit value.
+ * result saturates to 2^32-1. Exact. With it a division by the same number becomes a
+ * multiplication: (value * reciprocal) >> 32 is floor(value / divisor) or one off for any 32-bit
+ * value.
  */
 uint32_t pel_reciprocal_q32(uint32_t divisor);
 

@@ -100,8 +100,8 @@ uint32_t pel_frame_bytes(pel_format format, uint16_t width, uint16_t height);
  * Describes a frame in one piece of memory: plane 0 at `pixels`, and for NV12 and I420 the chroma
  * planes right behind it, each with the stride of plane 0 (NV12) or half of it (I420), as V4L2
  * lays them out. stride_bytes 0 means no padding. For a bottom-up picture `pixels` is the top
- * row (the last in memory) and the stride negative; NV12 and I420 cannot be described that way (fill
- * the struct by hand).
+ * row (the last in memory) and the stride negative; NV12 and I420 cannot be described that way
+ * (fill the struct by hand).
  *
  * PEL_ERR_ARG: null pointer, unknown format or range. PEL_ERR_FORMAT: the format cannot have this
  * size. PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX, or the stride is shorter than a row.
@@ -148,8 +148,8 @@ pel_status pel_crow_check(const pel_crow *row);
  * its R, its B and the mean of its two G, halves upward.
  *
  * PEL_ERR_ARG: null pointer, unknown format or range, outputs that overlap the row or each other.
- * PEL_ERR_RANGE: x + count is over pel_colour_width. PEL_ERR_FORMAT: impossible width, or a YCbCr row
- * whose range is not the one asked.
+ * PEL_ERR_RANGE: x + count is over pel_colour_width. PEL_ERR_FORMAT: impossible width, or a YCbCr
+ * row whose range is not the one asked.
  */
 pel_status pel_crow_read_yuv(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
                              uint8_t *y, uint8_t *u, uint8_t *v);

@@ -5,7 +5,8 @@
  * module that calls it has checked. Counts may be 0. Nothing is read or written outside the stated
  * elements; no alignment is asked for. Source and destination do not overlap unless it says so.
  *
- * row_c.c defines all of them in plain C: that is the truth. A faster version equals it bit for bit.
+ * row_c.c defines all of them in plain C: that is the truth. A faster version equals it bit for
+ * bit.
  */
 #ifndef PEL_ROW_H
 #define PEL_ROW_H
@@ -14,8 +15,8 @@
 
 /*
  * A row of pixels in which neighbours x = 2k and 2k+1 share a U and a V: pixel x has its Y at
- * y[x * y_step], its U at u[x / 2 * c_step], its V at v[x / 2 * c_step]. All YCbCr formats, packed or
- * planar, are this with different steps; gray is this with c_step 0.
+ * y[x * y_step], its U at u[x / 2 * c_step], its V at v[x / 2 * c_step]. All YCbCr formats, packed
+ * or planar, are this with different steps; gray is this with c_step 0.
  */
 typedef struct pel_row_pairs {
     const uint8_t *y, *u, *v;
@@ -55,7 +56,8 @@ void pel_row_read_bayer(const uint8_t *even, const uint8_t *odd, uint16_t count,
 void pel_row_rgb_to_ycbcr(const uint8_t *rgb, uint16_t count, int limited, uint8_t *y, uint8_t *u,
                           uint8_t *v, unsigned step);
 
-/* Y, U, V, each with `step` bytes from one to the next, into R G B: exactly rounded. rgb may be y. */
+/* Y, U, V, each with `step` bytes from one to the next, into R G B: exactly rounded. rgb may
+ * be y. */
 void pel_row_ycbcr_to_rgb(const uint8_t *y, const uint8_t *u, const uint8_t *v, unsigned step,
                           uint16_t count, int limited, uint8_t *rgb);
 
@@ -80,8 +82,9 @@ void pel_row_map(const uint8_t *src, uint16_t count, const uint8_t *table, uint8
 /* The sum of count bytes, at most 2^13 * 255 < 2^21. */
 uint32_t pel_row_sum(const uint8_t *src, uint16_t count);
 
-/* The runs of equal, nonzero labels, from left to right, as x0, x1, x0, x1, ... (half-open); returns how
- * many runs. `edges` has room for 2 * (count + 1): what lies behind the last run is scratch. */
+/* The runs of equal, nonzero labels, from left to right, as x0, x1, x0, x1, ... (half-open);
+ * returns how many runs. `edges` has room for 2 * (count + 1): what lies behind the last run is
+ * scratch. */
 uint16_t pel_row_find_runs(const uint8_t *labels, uint16_t count, uint16_t *edges);
 
 #endif

@@ -186,8 +186,8 @@ void pel_row_rgb_to_nrgb(const uint8_t *rgb, uint16_t count, uint16_t sum_min, u
     }
 }
 
-/* The hue of a colour whose channels lie `spread` apart: which channel is largest gives the third of
- * the circle, the difference of the other two the place in it, in sixths / spread. */
+/* The hue of a colour whose channels lie `spread` apart: which channel is largest gives the third
+ * of the circle, the difference of the other two the place in it, in sixths / spread. */
 static uint8_t hue(int32_t r, int32_t g, int32_t b, int32_t max, int32_t spread)
 {
     int32_t sixths;
@@ -245,9 +245,9 @@ uint8_t pel_row_label(pel_class_mask mask)
     return label_of(mask);
 }
 
-/* Two pairs at a time: most pixels are background, and most of those are told by their chroma alone;
- * then four of them are done after four look-ups. Called with constant steps, so that each layout gets
- * its own loop. */
+/* Two pairs at a time: most pixels are background, and most of those are told by their chroma
+ * alone; then four of them are done after four look-ups. Called with constant steps, so that each
+ * layout gets its own loop. */
 static inline void classify_pairs(const pel_row_boxes *boxes, const pel_row_pairs *src,
                                   uint16_t count, uint8_t *labels, size_t y_step, size_t c_step)
 {
@@ -344,9 +344,9 @@ static inline word load_aligned(const uint8_t *labels)
 }
 
 /*
- * Runs lie in memory as x0, x1, x0, x1, ...: every change of the label writes one of these (a run begins
- * or ends) or two (a run ends and the next begins). `edge` is the place of the next one, `label` the
- * label so far, 0 outside runs.
+ * Runs lie in memory as x0, x1, x0, x1, ...: every change of the label writes one of these (a run
+ * begins or ends) or two (a run ends and the next begins). `edge` is the place of the next one,
+ * `label` the label so far, 0 outside runs.
  */
 typedef struct run_writer {
     uint16_t *edge;
@@ -367,8 +367,8 @@ static inline run_writer next_label(run_writer writer, word label, unsigned x)
     return label == writer.label ? writer : change_label(writer, label, x);
 }
 
-/* A word of labels that are not all equal to the one before it. Where finding the lowest set bit is an
- * instruction, only the changes are visited; elsewhere all labels are. */
+/* A word of labels that are not all equal to the one before it. Where finding the lowest set bit is
+ * an instruction, only the changes are visited; elsewhere all labels are. */
 #if defined(__GNUC__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ &&                              \
     (defined(__x86_64__) || defined(__i386__) || defined(__aarch64__) ||                           \
      (defined(__ARM_ARCH) && __ARM_ARCH >= 7))

@@ -1,0 +1,433 @@
+/*
+ * The streaming calls of the filter module: how much memory is needed, what is refused and by which
+ * name, that a refusal touches nothing, when rows are due and when they are ready, and that nothing
+ * is written beside work and result. Frames are in test_filter_frames.c.
+ */
+#include "unity.h"
+
+#include <pel.h>
+#include <pel/filter.h>
+
+enum { WIDTH = 6, HEIGHT = 5, PIXELS = WIDTH * HEIGHT, GUARD = 8, CANARY = 0xA5 };
+
+static const uint8_t picture[PIXELS] = {
+    3, 4, 20, 21, 20, 19, 3, 2,  3,  20, 20, 19, 2,  0, 3,
+    9, 1, 20, 2,  1,  1,  5, 24, 19, 5,  10, 19, 20, 3, 255,
+};
+
+static uint8_t work_room[GUARD + PEL_FILTER_BYTES_WRAP(WIDTH, 2) + GUARD];
+static uint8_t *const work = work_room + GUARD;
+static uint8_t out_room[GUARD + PIXELS + GUARD];
+static uint8_t *const out = out_room + GUARD;
+static int16_t out_s16_room[GUARD + PIXELS + GUARD];
+static int16_t *const out_s16 = out_s16_room + GUARD;
+
+static void fill(uint8_t *bytes, uint8_t value, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        bytes[i] = value;
+    }
+}
+
+void setUp(void)
+{
+    fill(work_room, CANARY, sizeof work_room);
+    fill(out_room, CANARY, sizeof out_room);
+    for (unsigned i = 0; i < GUARD + PIXELS + GUARD; i++) {
+        out_s16_room[i] = CANARY;
+    }
+}
+
+void tearDown(void)
+{
+}
+
+static void expect_untouched(const uint8_t *bytes, size_t count)
+{
+    TEST_ASSERT_EACH_EQUAL_UINT8(CANARY, bytes, (uint16_t)count);
+}
+
+/* Nothing before `written` bytes of work and of the result, and nothing behind them. */
+static void expect_guards(size_t work_bytes, size_t out_bytes)
+{
+    expect_untouched(work_room, GUARD);
+    expect_untouched(work + work_bytes, sizeof work_room - GUARD - work_bytes);
+    expect_untouched(out_room, GUARD);
+    expect_untouched(out + out_bytes, sizeof out_room - GUARD - out_bytes);
+}
+
+static pel_filter_config config_of(pel_filter_op op, const char *kernel, pel_border border)
+{
+    pel_filter_config config = {0};
+    const unsigned radius = kernel == NULL ? 1 : pel_kernel_named(kernel)->radius;
+    config.op = op;
+    config.kernel = kernel == NULL ? NULL : pel_kernel_named(kernel);
+    config.width = WIDTH;
+    config.height = HEIGHT;
+    config.border = border;
+    config.work = work;
+    config.work_bytes = pel_filter_bytes(WIDTH, radius, border);
+    if (border == PEL_BORDER_WRAP) {
+        config.last_rows[0] = picture + (HEIGHT - radius) * WIDTH;
+        config.last_rows[1] = radius == 2 ? picture + (HEIGHT - 1) * WIDTH : NULL;
+    }
+    return config;
+}
+
+static pel_filter_config kernel_config(const char *kernel)
+{
+    return config_of(PEL_FILTER_KERNEL, kernel, PEL_BORDER_REPLICATE);
+}
+
+/* ---- Memory -------------------------------------------------------------------------------- */
+
+static void test_bytes_of_a_3x3_filter_on_320_pixels(void)
+{
+    static uint8_t three_rows[PEL_FILTER_BYTES(320, 1)];
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(3 * 320 + 64, (uint32_t)sizeof three_rows);
+    TEST_ASSERT_EQUAL_UINT32(3 * 322, (uint32_t)sizeof three_rows);
+    TEST_ASSERT_LESS_THAN_UINT32(100, (uint32_t)sizeof(pel_filter));
+}
+
+static void test_macro_and_function_agree(void)
+{
+    static const uint16_t widths[] = {1, 2, 3, 5, 8, 320, 321, 640, 8191, 8192};
+    for (unsigned i = 0; i < sizeof widths / sizeof widths[0]; i++) {
+        for (unsigned radius = 1; radius <= 2; radius++) {
+            const uint16_t w = widths[i];
+            for (int border = 0; border <= PEL_BORDER_VALID; border++) {
+                const size_t expected = border == PEL_BORDER_WRAP ? PEL_FILTER_BYTES_WRAP(w, radius)
+                                                                  : PEL_FILTER_BYTES(w, radius);
+                TEST_ASSERT_EQUAL_UINT32((uint32_t)expected,
+                                         (uint32_t)pel_filter_bytes(w, radius, (pel_border)border));
+            }
+        }
+    }
+}
+
+static void test_bytes_are_rows_with_pixels_on_either_side(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(3 * 12, (uint32_t)pel_filter_bytes(10, 1, PEL_BORDER_CONSTANT));
+    TEST_ASSERT_EQUAL_UINT32(4 * 12, (uint32_t)pel_filter_bytes(10, 1, PEL_BORDER_WRAP));
+    TEST_ASSERT_EQUAL_UINT32(5 * 14, (uint32_t)pel_filter_bytes(10, 2, PEL_BORDER_CONSTANT));
+    TEST_ASSERT_EQUAL_UINT32(7 * 14, (uint32_t)pel_filter_bytes(10, 2, PEL_BORDER_WRAP));
+    TEST_ASSERT_EQUAL_UINT32(2 * 36 + 10, (uint32_t)PEL_FILTER_TWICE_BYTES(10));
+}
+
+static void test_size_of_the_result(void)
+{
+    pel_filter_config config = kernel_config("gauss5");
+    for (int border = 0; border < PEL_BORDER_VALID; border++) {
+        config.border = (pel_border)border;
+        TEST_ASSERT_EQUAL_UINT16(WIDTH, pel_filter_width(&config));
+        TEST_ASSERT_EQUAL_UINT16(HEIGHT, pel_filter_height(&config));
+    }
+    config.border = PEL_BORDER_VALID;
+    TEST_ASSERT_EQUAL_UINT16(WIDTH - 4, pel_filter_width(&config));
+    TEST_ASSERT_EQUAL_UINT16(HEIGHT - 4, pel_filter_height(&config));
+    config.op = PEL_FILTER_MEDIAN; /* 3x3, whatever the kernel */
+    TEST_ASSERT_EQUAL_UINT16(WIDTH - 2, pel_filter_width(&config));
+    TEST_ASSERT_EQUAL_UINT16(HEIGHT - 2, pel_filter_height(&config));
+}
+
+/* ---- What begin refuses -------------------------------------------------------------------- */
+
+static void expect_begin(pel_status expected, const pel_filter_config *config)
+{
+    union {
+        pel_filter filter;
+        uint8_t bytes[sizeof(pel_filter)];
+    } place;
+    fill(place.bytes, CANARY, sizeof place.bytes);
+    TEST_ASSERT_EQUAL_INT(expected, pel_filter_begin(&place.filter, config));
+    if (expected < 0) {
+        expect_untouched(place.bytes, sizeof place.bytes);
+        expect_untouched(work_room, sizeof work_room);
+    }
+}
+
+static void test_begin_accepts_what_it_should(void)
+{
+    for (int op = 0; op < PEL_FILTER_OP_COUNT; op++) {
+        for (int border = 0; border <= PEL_BORDER_VALID; border++) {
+            const pel_filter_config config =
+                config_of((pel_filter_op)op, "sobel_x", (pel_border)border);
+            expect_begin(PEL_OK, &config);
+            expect_guards(config.work_bytes, 0);
+        }
+    }
+}
+
+static void test_begin_refuses_null_pointers(void)
+{
+    pel_filter filter;
+    pel_filter_config config = kernel_config("box3");
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_filter_begin(NULL, &config));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_filter_begin(&filter, NULL));
+    config.work = NULL;
+    expect_begin(PEL_ERR_ARG, &config);
+    config = kernel_config("box3");
+    config.kernel = NULL;
+    expect_begin(PEL_ERR_ARG, &config);
+    config.op = PEL_FILTER_MEDIAN;
+    expect_begin(PEL_OK, &config);
+}
+
+static void test_begin_refuses_unknown_operators_and_borders(void)
+{
+    pel_filter_config config = kernel_config("box3");
+    config.op = PEL_FILTER_OP_COUNT;
+    expect_begin(PEL_ERR_ARG, &config);
+    config.op = (pel_filter_op)-1;
+    expect_begin(PEL_ERR_ARG, &config);
+    config = kernel_config("box3");
+    config.border = (pel_border)(PEL_BORDER_VALID + 1);
+    expect_begin(PEL_ERR_ARG, &config);
+    config.border = (pel_border)-1;
+    expect_begin(PEL_ERR_ARG, &config);
+}
+
+static void test_begin_refuses_kernels_out_of_range(void)
+{
+    pel_filter_config config = kernel_config("box3");
+    pel_kernel kernel = *config.kernel;
+    config.work_bytes = sizeof work_room - 2 * (size_t)GUARD;
+    config.kernel = &kernel;
+    kernel.fast = 0;
+    expect_begin(PEL_OK, &config);
+    setUp();
+    kernel.radius = 0;
+    expect_begin(PEL_ERR_ARG, &config);
+    kernel.radius = 3;
+    expect_begin(PEL_ERR_ARG, &config);
+    kernel.radius = 255;
+    expect_begin(PEL_ERR_ARG, &config);
+    kernel.radius = 1;
+    kernel.divisor = 32768u;
+    expect_begin(PEL_ERR_ARG, &config);
+    kernel.divisor = 65535u;
+    expect_begin(PEL_ERR_ARG, &config);
+    kernel.divisor = 9;
+    kernel.shift = 16;
+    expect_begin(PEL_ERR_ARG, &config);
+    kernel.shift = 255;
+    expect_begin(PEL_ERR_ARG, &config);
+    kernel.shift = 15;
+    kernel.divisor = 32767;
+    expect_begin(PEL_OK, &config);
+}
+
+static void test_begin_refuses_wrap_without_the_last_rows(void)
+{
+    pel_filter_config config = config_of(PEL_FILTER_KERNEL, "box3", PEL_BORDER_WRAP);
+    expect_begin(PEL_OK, &config); /* radius 1 needs one row */
+    setUp();
+    config.last_rows[0] = NULL;
+    expect_begin(PEL_ERR_ARG, &config);
+    config = config_of(PEL_FILTER_KERNEL, "gauss5", PEL_BORDER_WRAP);
+    config.last_rows[1] = NULL;
+    expect_begin(PEL_ERR_ARG, &config);
+    config = config_of(PEL_FILTER_KERNEL, "gauss5", PEL_BORDER_WRAP);
+    config.last_rows[0] = NULL;
+    expect_begin(PEL_ERR_ARG, &config);
+}
+
+static void expect_size(pel_status expected, const char *kernel, pel_border border, uint16_t width,
+                        uint16_t height)
+{
+    pel_filter_config config = config_of(PEL_FILTER_KERNEL, kernel, border);
+    config.width = width;
+    config.height = height;
+    config.work_bytes = SIZE_MAX; /* larger than it is: no size is refused for want of memory */
+    expect_begin(expected, &config);
+}
+
+static void test_begin_refuses_impossible_sizes(void)
+{
+    expect_size(PEL_ERR_RANGE, "box3", PEL_BORDER_REPLICATE, 0, 4);
+    expect_size(PEL_ERR_RANGE, "box3", PEL_BORDER_REPLICATE, 4, 0);
+    expect_size(PEL_ERR_RANGE, "box3", PEL_BORDER_REPLICATE, PEL_SIDE_MAX + 1, 4);
+    expect_size(PEL_ERR_RANGE, "box3", PEL_BORDER_REPLICATE, 4, PEL_SIDE_MAX + 1);
+    expect_size(PEL_ERR_RANGE, "box3", PEL_BORDER_REPLICATE, 65535u, 65535u);
+    expect_size(PEL_OK, "box3", PEL_BORDER_REPLICATE, 1, 1);
+    expect_size(PEL_OK, "gauss5", PEL_BORDER_REPLICATE, 1, PEL_SIDE_MAX);
+}
+
+static void test_begin_refuses_pictures_without_a_valid_pixel(void)
+{
+    expect_size(PEL_ERR_RANGE, "box3", PEL_BORDER_VALID, 2, 3);
+    expect_size(PEL_ERR_RANGE, "box3", PEL_BORDER_VALID, 3, 2);
+    expect_size(PEL_ERR_RANGE, "gauss5", PEL_BORDER_VALID, 4, 5);
+    expect_size(PEL_ERR_RANGE, "gauss5", PEL_BORDER_VALID, 5, 4);
+    expect_size(PEL_OK, "box3", PEL_BORDER_VALID, 3, 3);
+    expect_size(PEL_OK, "gauss5", PEL_BORDER_VALID, 5, 5);
+}
+
+static void test_begin_refuses_too_little_memory(void)
+{
+    static const char *const names[] = {"box3", "gauss5"};
+    for (unsigned i = 0; i < 2; i++) {
+        for (int border = 0; border <= PEL_BORDER_VALID; border++) {
+            pel_filter_config config = config_of(PEL_FILTER_KERNEL, names[i], (pel_border)border);
+            setUp();
+            config.work_bytes--;
+            expect_begin(PEL_ERR_SPACE, &config);
+            config.work_bytes = 0;
+            expect_begin(PEL_ERR_SPACE, &config);
+        }
+    }
+}
+
+/* ---- Pushing and pulling ------------------------------------------------------------------- */
+
+static void expect_pull(pel_status expected, pel_filter *filter)
+{
+    const uint16_t row = filter->row;
+    fill(out, CANARY, PIXELS);
+    TEST_ASSERT_EQUAL_INT(expected, pel_filter_pull(filter, out));
+    TEST_ASSERT_EQUAL_UINT16(expected == PEL_OK ? row + 1 : row, filter->row);
+    if (expected != PEL_OK) {
+        expect_untouched(out_room, sizeof out_room);
+    }
+}
+
+static void test_rows_come_one_behind_and_two_at_the_end(void)
+{
+    const pel_filter_config config = kernel_config("identity");
+    pel_filter filter;
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_begin(&filter, &config));
+    TEST_ASSERT_EQUAL_UINT16(0, filter.row);
+    expect_pull(PEL_ERR_ORDER, &filter);
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture));
+    expect_pull(PEL_ERR_ORDER, &filter);
+    for (unsigned y = 1; y < HEIGHT; y++) {
+        TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture + y * WIDTH));
+        TEST_ASSERT_EQUAL_INT(PEL_ERR_ORDER, pel_filter_push(&filter, picture));
+        expect_pull(PEL_OK, &filter);
+        TEST_ASSERT_EQUAL_UINT8_ARRAY(picture + (y - 1) * WIDTH, out, WIDTH);
+        if (y + 1 < HEIGHT) {
+            expect_pull(PEL_ERR_ORDER, &filter);
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ORDER, pel_filter_push(&filter, picture));
+    expect_pull(PEL_OK, &filter);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(picture + (HEIGHT - 1) * WIDTH, out, WIDTH);
+    expect_pull(PEL_ERR_ORDER, &filter);
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ORDER, pel_filter_push(&filter, picture));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ORDER, pel_filter_pull_s16(&filter, out_s16));
+    TEST_ASSERT_EQUAL_INT16(CANARY, out_s16[0]);
+    TEST_ASSERT_EQUAL_UINT16(HEIGHT, filter.row);
+}
+
+/* How many rows become ready with each push. */
+static void expect_schedule(const char *kernel, pel_border border, const uint8_t *ready)
+{
+    const pel_filter_config config = config_of(PEL_FILTER_KERNEL, kernel, border);
+    pel_filter filter;
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_begin(&filter, &config));
+    for (unsigned y = 0; y < HEIGHT; y++) {
+        unsigned pulled = 0;
+        TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture + y * WIDTH));
+        while (pel_filter_pull(&filter, out) == PEL_OK) {
+            pulled++;
+        }
+        TEST_ASSERT_EQUAL_UINT(ready[y], pulled);
+    }
+    expect_guards(config.work_bytes, pel_filter_width(&config));
+}
+
+static void test_when_rows_are_ready(void)
+{
+    static const uint8_t small[HEIGHT] = {0, 1, 1, 1, 2}, small_valid[HEIGHT] = {0, 0, 1, 1, 1};
+    static const uint8_t large[HEIGHT] = {0, 0, 1, 1, 3}, large_valid[HEIGHT] = {0, 0, 0, 0, 1};
+    for (int border = 0; border < PEL_BORDER_VALID; border++) {
+        setUp();
+        expect_schedule("box3", (pel_border)border, small);
+        setUp();
+        expect_schedule("gauss5", (pel_border)border, large);
+    }
+    setUp();
+    expect_schedule("box3", PEL_BORDER_VALID, small_valid);
+    setUp();
+    expect_schedule("gauss5", PEL_BORDER_VALID, large_valid);
+}
+
+static void test_null_rows_are_refused_and_change_nothing(void)
+{
+    const pel_filter_config config = kernel_config("identity");
+    pel_filter filter;
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_begin(&filter, &config));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_filter_push(&filter, NULL));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_filter_push(NULL, picture));
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture));
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture + WIDTH));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_filter_pull(&filter, NULL));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_filter_pull(NULL, out));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_filter_pull_s16(&filter, NULL));
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_filter_pull_s16(NULL, out_s16));
+    expect_pull(PEL_OK, &filter);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(picture, out, WIDTH);
+}
+
+static void test_a_new_begin_forgets_the_old_picture(void)
+{
+    const pel_filter_config config = kernel_config("shift_down");
+    pel_filter filter;
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_begin(&filter, &config));
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture));
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture));
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_begin(&filter, &config));
+    TEST_ASSERT_EQUAL_UINT16(0, filter.row);
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture + 2 * WIDTH));
+    expect_pull(PEL_ERR_ORDER, &filter);
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture));
+    expect_pull(PEL_OK, &filter);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(picture + 2 * WIDTH, out, WIDTH);
+}
+
+static int is_signed(pel_filter_op op)
+{
+    return op == PEL_FILTER_KERNEL || op == PEL_FILTER_GRADIENT_ABS || op == PEL_FILTER_GRADIENT;
+}
+
+static void test_sixteen_bits_are_for_kernels_and_gradients(void)
+{
+    for (int i = 0; i < PEL_FILTER_OP_COUNT; i++) {
+        const pel_filter_op op = (pel_filter_op)i;
+        const pel_filter_config config = config_of(op, "sobel_x", PEL_BORDER_REPLICATE);
+        const pel_status expected = is_signed(op) ? PEL_OK : PEL_ERR_FORMAT;
+        pel_filter filter;
+        setUp();
+        TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_begin(&filter, &config));
+        TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture));
+        TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture + WIDTH));
+        TEST_ASSERT_EQUAL_INT(expected, pel_filter_pull_s16(&filter, out_s16));
+        TEST_ASSERT_EQUAL_INT16(CANARY, out_s16[is_signed(op) ? WIDTH : 0]);
+        TEST_ASSERT_EQUAL_UINT16(is_signed(op) ? 1 : 0, filter.row);
+        TEST_ASSERT_EQUAL_INT(is_signed(op) ? PEL_ERR_ORDER : PEL_OK,
+                              pel_filter_pull(&filter, out));
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_bytes_of_a_3x3_filter_on_320_pixels);
+    RUN_TEST(test_macro_and_function_agree);
+    RUN_TEST(test_bytes_are_rows_with_pixels_on_either_side);
+    RUN_TEST(test_size_of_the_result);
+    RUN_TEST(test_begin_accepts_what_it_should);
+    RUN_TEST(test_begin_refuses_null_pointers);
+    RUN_TEST(test_begin_refuses_unknown_operators_and_borders);
+    RUN_TEST(test_begin_refuses_kernels_out_of_range);
+    RUN_TEST(test_begin_refuses_wrap_without_the_last_rows);
+    RUN_TEST(test_begin_refuses_impossible_sizes);
+    RUN_TEST(test_begin_refuses_pictures_without_a_valid_pixel);
+    RUN_TEST(test_begin_refuses_too_little_memory);
+    RUN_TEST(test_rows_come_one_behind_and_two_at_the_end);
+    RUN_TEST(test_when_rows_are_ready);
+    RUN_TEST(test_null_rows_are_refused_and_change_nothing);
+    RUN_TEST(test_a_new_begin_forgets_the_old_picture);
+    RUN_TEST(test_sixteen_bits_are_for_kernels_and_gradients);
+    return UNITY_END();
+}
