@@ -1,7 +1,7 @@
 /*
  * Filters, row by row and on whole frames, against the reference: every operator and border, every
- * size from 1 x 1 to 9 x 9 and random ones to 67 x 35, random kernels, strides, places and overlaps.
- * The argument divides the amount of random work.
+ * size from 1 x 1 to 9 x 9 and random ones to 67 x 35, random kernels, strides, places and
+ * overlaps. The argument divides the amount of random work.
  */
 #include "filter_trial.h"
 

@@ -278,8 +278,8 @@ static void test_sorting(void)
     pel_blobs_sort(NULL, 3);
 }
 
-/* Without moments there is no axis: the answers are those of a disc, and a filter that asks for more is
- * refused. */
+/* Without moments there is no axis: the answers are those of a disc, and a filter that asks for
+ * more is refused. */
 static void test_shapes_that_were_not_measured(void)
 {
     static uint64_t words[PEL_BLOBS_WORDS(8, 8, PEL_MEASURE_ALL)];

@@ -1,6 +1,6 @@
 /*
- * Filters with a kernel: the named ones, rounding, limits, the largest sums. The other operators are
- * in test_filter_ops.c, the calls themselves in test_filter_calls.c, larger pictures in
+ * Filters with a kernel: the named ones, rounding, limits, the largest sums. The other operators
+ * are in test_filter_ops.c, the calls themselves in test_filter_calls.c, larger pictures in
  * test_filter_tables.c.
  */
 #include "unity.h"

@@ -1,6 +1,6 @@
 /*
- * "Must not overlap" is checked: an output that would overwrite an input that is still to be read is
- * refused, and both are left as they were. Neighbours that share no byte are fine.
+ * "Must not overlap" is checked: an output that would overwrite an input that is still to be read
+ * is refused, and both are left as they were. Neighbours that share no byte are fine.
  */
 #include "unity.h"
 
