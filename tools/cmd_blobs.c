@@ -24,7 +24,8 @@ static const char help[] =
     "about\n"
     "4 megapixels (1920x1080 and 2048x2048 are fine, 2592x1944 is not) are refused, as their sums "
     "could\n"
-    "overflow: make them smaller first, or cut them with pel convert --crop.\n"
+    "overflow: make them smaller first (pel point resize WxH --box), or cut them (pel convert "
+    "--crop).\n"
     "\n"
     "  -c, --classes CLASSES    class file, CMVision's text format, or a .tm table\n"
     "      --raw FORMAT WxH     INPUT holds raw frames: YUYV 320x240, for example\n"
@@ -360,8 +361,8 @@ static int annotate(const struct job *job, const char *path, unsigned long numbe
     char *name = output_name(job->output, number);
     int result = -1;
     if (!name || frame_resize(&picture, PEL_RGB888, PEL_RANGE_FULL,
-                              pel_colour_width(view->format, view->width),
-                              pel_colour_height(view->format, view->height))) {
+                              pel_color_width(view->format, view->width),
+                              pel_color_height(view->format, view->height))) {
         say_error(path, "out of memory");
     } else if (read_rgb(view, &picture.view)) {
         say_error(path, "cannot be turned into a picture");
@@ -407,7 +408,7 @@ static void keep(void *user, const pel_blob *blob)
 /* Runs the finder with so much memory that nothing can be lost. */
 static int find(struct job *job, const char *path, const pel_cview *view, pel_blobs_counts *counts)
 {
-    const uint16_t width = pel_colour_width(view->format, view->width);
+    const uint16_t width = pel_color_width(view->format, view->width);
     const uint16_t open_max = (uint16_t)PEL_BLOBS_OPEN_SAFE(width);
     const size_t work_bytes = pel_blobs_bytes(width, open_max, PEL_MEASURE_ALL);
     uint8_t *labels = malloc(width);
@@ -418,7 +419,7 @@ static int find(struct job *job, const char *path, const pel_cview *view, pel_bl
         uint32_t count;
         pel_blobs_config config = {0};
         config.width = width;
-        config.height = pel_colour_height(view->format, view->height);
+        config.height = pel_color_height(view->format, view->height);
         config.open_max = open_max;
         config.connectivity = job->connectivity;
         config.measure = PEL_MEASURE_ALL;
@@ -435,7 +436,7 @@ static int find(struct job *job, const char *path, const pel_cview *view, pel_bl
     if (status == PEL_ERR_RANGE) {
         return say_error(path,
                          "a picture of %ux%u is too large: its sums could overflow; make it "
-                         "smaller first, or cut it with pel convert --crop",
+                         "smaller with pel point resize --box, or cut it with pel convert --crop",
                          (unsigned)view->width, (unsigned)view->height);
     }
     if (status == PEL_ERR_SPACE || job->out_of_memory) {
@@ -506,8 +507,8 @@ static int print_found(const struct job *job, const char *path, unsigned long nu
     report_frame found = {0};
     found.frame = number;
     found.file = path;
-    found.width = pel_colour_width(view->format, view->width);
-    found.height = pel_colour_height(view->format, view->height);
+    found.width = pel_color_width(view->format, view->width);
+    found.height = pel_color_height(view->format, view->height);
     found.list = &job->list;
     found.blobs = job->blobs;
     found.blob_count = job->count;

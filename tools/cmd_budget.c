@@ -165,7 +165,7 @@ static size_t line_bytes(const struct plan *plan)
     if (one > 0) {
         return one;
     }
-    return pel_colour_height(plan->format, 2) == 1 ? two : two - pel_row_bytes(plan->format, width);
+    return pel_color_height(plan->format, 2) == 1 ? two : two - pel_row_bytes(plan->format, width);
 }
 
 static void print_parts(const struct plan *plan, const struct part *parts, size_t count)
@@ -249,8 +249,8 @@ static int run(int argc, char **argv)
     if (status >= 0) {
         return status;
     }
-    const uint16_t width = pel_colour_width(plan.format, (uint16_t)plan.width);
-    const uint16_t height = pel_colour_height(plan.format, (uint16_t)plan.height);
+    const uint16_t width = pel_color_width(plan.format, (uint16_t)plan.width);
+    const uint16_t height = pel_color_height(plan.format, (uint16_t)plan.height);
     if (refuse_size(&plan, width, height)) {
         return EXIT_BAD_USAGE;
     }

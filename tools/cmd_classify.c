@@ -107,8 +107,8 @@ static int classify(struct job *job, const char *path, const pel_cview *view, ui
 static int visit(void *user, const char *path, unsigned long number, const pel_cview *view)
 {
     struct job *job = user;
-    const uint16_t width = pel_colour_width(view->format, view->width);
-    const uint16_t height = pel_colour_height(view->format, view->height);
+    const uint16_t width = pel_color_width(view->format, view->width);
+    const uint16_t height = pel_color_height(view->format, view->height);
     const size_t count = (size_t)width * height;
     if (walk_check_range(path, view, job->classes_path, &job->list)) {
         return -1;

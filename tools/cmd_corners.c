@@ -112,10 +112,9 @@ static int read_threshold(int32_t *threshold)
 static int read_option(int option, int argc, char **argv, struct job *job)
 {
     switch (option) {
-    case 'R':
-        return options_raw(argc, argv, &job->input);
-    case 'G':
-        return options_range(optarg, &job->input.range);
+    case OPTION_RAW:
+    case OPTION_RANGE:
+        return options_input(option, argc, argv, &job->input) < 0 ? -1 : 0;
     case 'm':
         return read_method(&job->config.method);
     case 's':
@@ -153,8 +152,7 @@ static int check(int argc, char **argv, struct job *job)
     return -1;
 }
 
-static const struct option long_options[] = {{"raw", required_argument, NULL, 'R'},
-                                             {"range", required_argument, NULL, 'G'},
+static const struct option long_options[] = {OPTIONS_INPUT,
                                              {"method", required_argument, NULL, 'm'},
                                              {"max", required_argument, NULL, 'x'},
                                              {"threshold", required_argument, NULL, 't'},

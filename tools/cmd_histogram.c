@@ -63,11 +63,9 @@ static int take_option(int option, int argc, char **argv, struct job *job)
 {
     int failed = 0;
     switch (option) {
-    case 'R':
-        failed = options_raw(argc, argv, &job->input);
-        break;
-    case 'G':
-        failed = options_range(optarg, &job->input.range);
+    case OPTION_RAW:
+    case OPTION_RANGE:
+        failed = options_input(option, argc, argv, &job->input) < 0;
         break;
     case 'Y':
         job->kind = PLAIN_GRAY;
@@ -89,8 +87,7 @@ static int take_option(int option, int argc, char **argv, struct job *job)
 
 static int parse(int argc, char **argv, struct job *job)
 {
-    static const struct option long_options[] = {{"raw", required_argument, NULL, 'R'},
-                                                 {"range", required_argument, NULL, 'G'},
+    static const struct option long_options[] = {OPTIONS_INPUT,
                                                  {"gray", no_argument, NULL, 'Y'},
                                                  {"cumulative", no_argument, NULL, 'c'},
                                                  {"csv", no_argument, NULL, 'v'},
@@ -115,7 +112,7 @@ static int parse(int argc, char **argv, struct job *job)
         return usage_error("histogram",
                            "standard output cannot take both the numbers and the picture");
     }
-    return -1;
+    return job->output && sink_check_picture(job->output) ? usage_hint("histogram") : -1;
 }
 
 /* ---- Counting ------------------------------------------------------------------------------ */

@@ -111,10 +111,9 @@ static int read_roi(pel_scan *scan)
 static int read_option(int option, int argc, char **argv, struct job *job)
 {
     switch (option) {
-    case 'R':
-        return options_raw(argc, argv, &job->input);
-    case 'G':
-        return options_range(optarg, &job->input.range);
+    case OPTION_RAW:
+    case OPTION_RANGE:
+        return options_input(option, argc, argv, &job->input) < 0 ? -1 : 0;
     case 'b':
         return read_label(&job->scan);
     case 'l':
@@ -148,8 +147,7 @@ static int check(int argc, char **argv, struct job *job)
     return -1;
 }
 
-static const struct option long_options[] = {{"raw", required_argument, NULL, 'R'},
-                                             {"range", required_argument, NULL, 'G'},
+static const struct option long_options[] = {OPTIONS_INPUT,
                                              {"label", required_argument, NULL, 'b'},
                                              {"columns", no_argument, NULL, 'c'},
                                              {"length", required_argument, NULL, 'l'},

@@ -81,8 +81,8 @@ static void print_run(const struct job *job, unsigned long number, unsigned y, p
 static int list_runs(const struct job *job, const char *path, unsigned long number,
                      const pel_cview *view, uint8_t *labels, pel_run *runs)
 {
-    const uint16_t width = pel_colour_width(view->format, view->width);
-    const uint16_t height = pel_colour_height(view->format, view->height);
+    const uint16_t width = pel_color_width(view->format, view->width);
+    const uint16_t height = pel_color_height(view->format, view->height);
     for (uint16_t y = 0; y < height; y++) {
         const pel_crow row = pel_cview_row(view, y);
         const pel_status status = pel_classify_row(&job->list.classifier, &row, labels);

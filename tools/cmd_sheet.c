@@ -59,7 +59,10 @@ static int parse(int argc, char **argv, struct job *job)
     if (failed) {
         return usage_hint("sheet");
     }
-    return argc - optind < 2 ? usage_error("sheet", "OUT and at least one IN wanted") : -1;
+    if (argc - optind < 2) {
+        return usage_error("sheet", "OUT and at least one IN wanted");
+    }
+    return sink_check_picture(argv[optind]) ? usage_hint("sheet") : -1;
 }
 
 static int keep(void *user, const char *path, unsigned long number, const pel_cview *view)

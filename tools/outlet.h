@@ -1,6 +1,6 @@
 /*
- * Where the pictures go that a command makes from pictures: .ppm, .pgm, .png, .y4m, or "-" for PPM or
- * PGM on standard output. The file is created when the first picture is there, so that bad input
+ * Where the pictures go that a command makes from pictures: .ppm, .pgm, .png, .y4m, or "-" for PPM
+ * or PGM on standard output. The file is created when the first picture is there, so that bad input
  * leaves none behind; more than one picture needs a file that can hold them.
  */
 #ifndef OUTLET_H

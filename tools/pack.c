@@ -143,13 +143,13 @@ void pack_rgb_row(const pel_cview *view, unsigned y, uint8_t *row)
 {
     pel_crow from = pel_cview_row(view, (uint16_t)y);
 
-    pel_crow_read_rgb(&from, 0, pel_colour_width(view->format, view->width), row);
+    pel_crow_read_rgb(&from, 0, pel_color_width(view->format, view->width), row);
 }
 
 /* Row y as Y U V in `range`, three bytes a pixel. */
 static void read_ycbcr(const pel_cview *view, unsigned y, pel_range range, uint8_t *row)
 {
-    uint16_t width = pel_colour_width(view->format, view->width);
+    uint16_t width = pel_color_width(view->format, view->width);
     pel_crow from = pel_cview_row(view, (uint16_t)y);
     uint8_t luma[PEL_SIDE_MAX], cb[PEL_SIDE_MAX], cr[PEL_SIDE_MAX];
     unsigned x;
@@ -169,7 +169,7 @@ static void read_ycbcr(const pel_cview *view, unsigned y, pel_range range, uint8
 
 void pack_gray_row(const pel_cview *view, unsigned y, uint8_t *row)
 {
-    uint16_t width = pel_colour_width(view->format, view->width);
+    uint16_t width = pel_color_width(view->format, view->width);
     uint8_t colors[3 * PEL_SIDE_MAX];
     unsigned x;
 
@@ -234,8 +234,8 @@ int pack_frame(const char *where, const pel_cview *view, pel_format format, pel_
 {
     const packer *how = &packers[format];
     int same = view->format == format && (view->range == range || !how->ycbcr);
-    uint16_t width = same ? view->width : pel_colour_width(view->format, view->width);
-    uint16_t height = same ? view->height : pel_colour_height(view->format, view->height);
+    uint16_t width = same ? view->width : pel_color_width(view->format, view->width);
+    uint16_t height = same ? view->height : pel_color_height(view->format, view->height);
     uint8_t *to[4];
     unsigned y;
     band colors;

@@ -10,8 +10,8 @@ typedef enum plain_kind {
     PLAIN_RGB           /* gray becomes three equal channels */
 } plain_kind;
 
-/* Converts a picture; Bayer pictures have half of their width and height. Memory of `out` is reused.
- * 0, or -1 after a message that names `where`. */
+/* Converts a picture; Bayer pictures have half of their width and height. Memory of `out` is
+ * reused. 0, or -1 after a message that names `where`. */
 int plain_make(const char *where, const pel_cview *view, plain_kind kind, frame *out);
 
 /* Row y of the first plane, to write. */

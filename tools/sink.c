@@ -98,8 +98,8 @@ static int cannot_write(const sink *to)
 static int write_pnm(sink *to, const pel_cview *view)
 {
     uint8_t row[3 * PEL_SIDE_MAX];
-    unsigned width = pel_colour_width(view->format, view->width);
-    unsigned height = pel_colour_height(view->format, view->height);
+    unsigned width = pel_color_width(view->format, view->width);
+    unsigned height = pel_color_height(view->format, view->height);
     int gray = to->kind == SINK_PGM;
     size_t row_bytes = (size_t)width * (gray ? 1 : 3);
     unsigned y;
@@ -139,8 +139,8 @@ static int write_png(sink *to, const pel_cview *view)
     if (to->frames > 0) {
         return say_error(name_of(to->path), "a PNG holds one picture; choose one with --frame N");
     }
-    picture.width = pel_colour_width(view->format, view->width);
-    picture.height = pel_colour_height(view->format, view->height);
+    picture.width = pel_color_width(view->format, view->width);
+    picture.height = pel_color_height(view->format, view->height);
     picture.gray = view->format == PEL_GRAY8;
     picture.comment = to->comment;
     picture.fill_row = picture.gray ? fill_gray : fill_rgb;

@@ -38,6 +38,7 @@ need python3 has python3
 need python3-venv python3 -c 'import ensurepip, venv'
 need gcc-arm-none-eabi has arm-none-eabi-gcc
 need gcc-riscv64-unknown-elf has riscv64-unknown-elf-gcc
+need opencv-doc test -d /usr/share/doc/opencv-doc
 install_missing "$logs/install.log"
 
 # Python packages go into a folder of their own: the system's Python is not ours to change.

@@ -11,11 +11,9 @@ int turn_option(turn *job, int option, int argc, char **argv)
 {
     int failed = 0;
     switch (option) {
-    case 'R':
-        failed = options_raw(argc, argv, &job->input);
-        break;
-    case 'G':
-        failed = options_range(optarg, &job->input.range);
+    case OPTION_RAW:
+    case OPTION_RANGE:
+        failed = options_input(option, argc, argv, &job->input) < 0;
         break;
     case 'Y':
         job->kind = PLAIN_GRAY;

@@ -5,11 +5,12 @@
 
 #include <getopt.h>
 
+#include "options.h"
 #include "outlet.h"
 #include "plain.h"
 
-/* Turns a GRAY8 or RGB888 picture into another and writes it with outlet_view(&turn.to, path, ...) or
- * a relative of that. 0, or -1 after a message. */
+/* Turns a GRAY8 or RGB888 picture into another and writes it with outlet_view(&turn.to, path, ...)
+ * or a relative of that. 0, or -1 after a message. */
 typedef int turn_make(void *user, const char *path, const pel_cview *picture);
 
 /* Zero it and set the first three. */
@@ -24,11 +25,11 @@ typedef struct turn {
     frame picture;
 } turn;
 
-/* The options that they share: --raw, --range, --gray, --help, for a getopt_long table, and as a part
- * of the manual. */
+/* The options that they share: --raw, --range, --gray, --help, for a getopt_long table, and as a
+ * part of the manual. */
 /* clang-format off */
 #define TURN_OPTIONS                                                                               \
-    {"raw", required_argument, NULL, 'R'}, {"range", required_argument, NULL, 'G'},                \
+    OPTIONS_INPUT, \
     {"gray", no_argument, NULL, 'Y'}, {"help", no_argument, NULL, 'h'}, {NULL, 0, NULL, 0}
 /* clang-format on */
 #define TURN_HELP                                                                                  \

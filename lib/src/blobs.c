@@ -440,8 +440,8 @@ static pel_status check_pixels(const pel_blobs *b, const pel_crow *pixels)
     if (status != PEL_OK) {
         return status;
     }
-    return pel_colour_width(pixels->format, pixels->width) == b->config.width ? PEL_OK
-                                                                              : PEL_ERR_FORMAT;
+    return pel_color_width(pixels->format, pixels->width) == b->config.width ? PEL_OK
+                                                                             : PEL_ERR_FORMAT;
 }
 
 pel_status pel_blobs_row(pel_blobs *b, uint16_t y, const uint8_t *labels, const pel_crow *pixels)

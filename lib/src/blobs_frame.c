@@ -126,8 +126,8 @@ pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
     if (status != PEL_OK) {
         return status;
     }
-    if (config->width != pel_colour_width(view->format, view->width) ||
-        config->height != pel_colour_height(view->format, view->height)) {
+    if (config->width != pel_color_width(view->format, view->width) ||
+        config->height != pel_color_height(view->format, view->height)) {
         return PEL_ERR_RANGE;
     }
     row = pel_cview_row(view, 0); /* what this row is refused for, all are */

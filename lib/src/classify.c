@@ -100,7 +100,7 @@ pel_status pel_i_classify_check(const pel_classifier *classifier, const pel_crow
     if (status != PEL_OK) {
         return status;
     }
-    if (pel_i_crow_overlaps(row, labels, pel_colour_width(row->format, row->width))) {
+    if (pel_i_crow_overlaps(row, labels, pel_color_width(row->format, row->width))) {
         return PEL_ERR_ARG;
     }
     return pel_i_format(row->format)->layout == PEL_LAYOUT_PAIRS && row->range != classifier->range
@@ -118,7 +118,7 @@ pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *ro
         return status;
     }
     info = pel_i_format(row->format);
-    width = pel_colour_width(row->format, row->width);
+    width = pel_color_width(row->format, row->width);
     if (info->layout == PEL_LAYOUT_PAIRS && classifier->boxes) {
         const pel_row_boxes boxes = {classifier->boxes->y, classifier->boxes->u,
                                      classifier->boxes->v};
@@ -172,8 +172,8 @@ pel_status pel_classify_frame(const pel_classifier *classifier, const pel_cview 
     if (out.format != PEL_GRAY8) {
         return PEL_ERR_FORMAT;
     }
-    if (out.width != pel_colour_width(view->format, view->width) ||
-        out.height != pel_colour_height(view->format, view->height)) {
+    if (out.width != pel_color_width(view->format, view->width) ||
+        out.height != pel_color_height(view->format, view->height)) {
         return PEL_ERR_SPACE;
     }
     if (views_overlap(view, &out)) {

@@ -1,5 +1,5 @@
-/* Sums over a window of a picture, for refinement: a file of its own, so that its rows do not lie on
- * the stack together with all the rest. */
+/* Sums over a window of a picture, for refinement: a file of its own, so that its rows do not lie
+ * on the stack together with all the rest. */
 #ifndef PEL_FEATURE_WINDOW_H
 #define PEL_FEATURE_WINDOW_H
 

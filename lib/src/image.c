@@ -70,15 +70,15 @@ uint32_t pel_frame_bytes(pel_format format, uint16_t width, uint16_t height)
     return info->planes > 1 ? luma + luma / 2 : luma;
 }
 
-uint16_t pel_colour_width(pel_format format, uint16_t width)
+uint16_t pel_color_width(pel_format format, uint16_t width)
 {
     const pel_format_info *info = pel_i_format(format);
     return info && info->layout == PEL_LAYOUT_BAYER ? (uint16_t)(width / 2) : width;
 }
 
-uint16_t pel_colour_height(pel_format format, uint16_t height)
+uint16_t pel_color_height(pel_format format, uint16_t height)
 {
-    return pel_colour_width(format, height); /* a Bayer cell is as high as it is wide */
+    return pel_color_width(format, height); /* a Bayer cell is as high as it is wide */
 }
 
 static pel_status check_size(const pel_format_info *info, uint16_t width, uint16_t height)
@@ -384,8 +384,7 @@ static pel_status check_read(const pel_crow *row, uint16_t x, uint16_t count)
     if (status != PEL_OK) {
         return status;
     }
-    return (uint32_t)x + count <= pel_colour_width(row->format, row->width) ? PEL_OK
-                                                                            : PEL_ERR_RANGE;
+    return (uint32_t)x + count <= pel_color_width(row->format, row->width) ? PEL_OK : PEL_ERR_RANGE;
 }
 
 enum { CHUNK = 32 }; /* pixels converted at a time: 96 bytes of stack */

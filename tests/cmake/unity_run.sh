@@ -5,7 +5,9 @@ output=$("$@" 2>&1)
 status=$?
 printf '%s\n' "$output"
 printf '%s\n' "$output" | awk -v status="$status" '
-    /^[0-9]+ Tests [0-9]+ Failures [0-9]+ Ignored/ { tests = $1; failed = $3; ignored = $5; seen = 1 }
+    /^[0-9]+ Tests [0-9]+ Failures [0-9]+ Ignored/ {
+        tests = $1; failed = $3; ignored = $5; seen = 1
+    }
     END {
         if (!seen) {
             print "no summary: the program ended with status " status " before it was done"

@@ -1,4 +1,4 @@
-"""What the tests of the image operations share: small pictures as lists of rows, and what a filter, a
+"""What the tests of the image operations share: small pictures as lists of rows; what a filter, a
 border and a structure tensor are, from their definitions."""
 import math
 

@@ -93,7 +93,7 @@ def collect(namespace):
 
 
 def parse_pnm(data):
-    """(kind, width, height, pixels, comments) of the first binary picture, and the bytes behind it."""
+    """(kind, width, height, pixels, comments) of the first binary picture, and what follows it."""
     words, comments, at = [], [], 0
     while len(words) < 4:
         if data[at:at + 1].isspace():
@@ -175,7 +175,7 @@ def read_classes(path):
 
 
 def classify(rgb, classes):
-    """The labels of packed RGB pixels: class + 1 of the first class whose box has the colour, or 0."""
+    """The labels of packed RGB pixels: class + 1 of the first class whose box has the colour; 0."""
     known = {}
     labels = bytearray(len(rgb) // 3)
     for i in range(len(labels)):

@@ -208,6 +208,50 @@ def test_merging():
     equal(len(parse_rows(ok(*base, "--merge-margin", "2").text)), 3)
 
 
+def test_merging_with_the_densities_of_the_classes():
+    path = picture(rows=["oo..oo..bb..bb"] * 2)  # 8 of 6 x 2 = 0.667 for both pairs
+
+    def merged(orange, blue, *words):
+        listed = classes(PLAIN.replace("0.0000 1 orange", orange + " 1 orange")
+                         .replace("0.0000 1 blue", blue + " 1 blue"))
+        found = parse_rows(ok("blobs", "-c", listed, "--csv", *words, path).text)
+        return [(row[2], row[3], row[4], row[6]) for row in found]
+
+    apart = [("orange", 4, 0, 2), ("orange", 4, 4, 6), ("blue", 4, 8, 10), ("blue", 4, 12, 14)]
+    by_class = ["--merge-classes"]
+    equal(merged("0.6", "0.6"), apart, "not without being asked")
+    equal(merged("0", "0", *by_class), apart, "0 is never")
+    equal(merged("0.6", "0.7", *by_class), [("orange", 8, 0, 6)] + apart[2:])
+    equal(merged("0.7", "0.6", *by_class), [("blue", 8, 8, 14)] + apart[:2])
+    equal(merged("0.6", "0.6", *by_class), [("orange", 8, 0, 6), ("blue", 8, 8, 14)])
+    equal(merged("7", "99.5", *by_class), apart, "more than all of it")
+    equal(merged("0.6", "0.7", *by_class, "--max", 1), [("orange", 8, 0, 6)])
+    ok("classes", classes(), "c.tm")
+    refused(2, ["c.tm", "table", "--merge-classes"], "blobs", "-c", "c.tm", *by_class, path)
+    equal(ok("blobs", "-c", classes(), "--merge-classes", "--csv", picture(rows=["."])).text
+          .count("\n"), 1, "no blobs")
+
+
+def test_merging_by_class_is_merging_each_class_alone():
+    # 40 x 30 pixels of a simple linear congruence; a density for each class, then for one alone
+    state, rows = 5, []
+    for _ in range(30):
+        row = ""
+        for _ in range(40):
+            state = (state * 1103515245 + 12345) % 2**31
+            row += ".....ob"[(state >> 16) % 7]
+        rows.append(row)
+    listed = classes(PLAIN.replace("0.0000 1 orange", "0.3 1 orange")
+                     .replace("0.0000 1 blue", "0.4 1 blue"))
+    base = ["blobs", "-c", listed, "--csv", picture(rows=rows)]
+    alone = [row for name, density in (("orange", "0.3"), ("blue", "0.4")) for row in
+             parse_rows(ok(*base, "--class", name, "--merge-density", density).text)]
+    got = parse_rows(ok(*base, "--merge-classes").text)
+    true(50 < len(got) < len(parse_rows(ok(*base).text)) - 50, "something to merge")
+    equal(sorted(got), sorted(alone))
+    equal([row[3] for row in got], sorted((row[3] for row in alone), reverse=True), "order")
+
+
 def test_annotated_picture():
     rows = ["." * 20] * 3 + ["....oooooooooo......"] * 9 + ["." * 20] * 4
     ok("blobs", "-c", classes(), "-o", "out.ppm", picture(rows=rows))
@@ -254,7 +298,11 @@ def test_annotated_stream():
     ok("blobs", "-c", listed, "-o", "f%04d.ppm", one, one)
     equal(sorted(name for name in os.listdir(".") if name.startswith("f")),
           ["f0000.ppm", "f0001.ppm"])
-    refused(2, ["f.ppm", "%04d"], "blobs", "-c", listed, "-o", "f.ppm", one, one)
+    said = refused(1, ["f.ppm", "%04d"], "blobs", "-c", listed, "-o", "f.ppm", one, one)
+    equal((said.out, os.path.exists("f.ppm")), (b"", False), "nothing is read before")
+    two = write("two.ppm", open(one, "rb").read() * 2)
+    said = refused(1, ["f.ppm", "%04d"], "blobs", "-c", listed, "-o", "f.ppm", "--csv", two)
+    equal([row[0] for row in parse_rows(said.text)], [0], "the frame that has a place")
     out = ok("blobs", "-c", listed, "-o", "-", one, one).out
     _, rest = parse_pnm(out)
     _, rest = parse_pnm(rest)
@@ -264,7 +312,9 @@ def test_annotated_stream():
 
 def test_annotated_picture_that_cannot_be_written():
     refused(1, ["nowhere/out.ppm"], "blobs", "-c", classes(), "-o", "nowhere/out.ppm", picture())
-    refused(1, ["out.gif"], "blobs", "-c", classes(), "-o", "out.gif", picture())
+    for name in ("out.gif", "out.y4m", "out"):
+        said = refused(2, [name, ".png"], "blobs", "-c", "none.classes", "-o", name, "none.ppm")
+        equal(said.out, b"")
 
 
 def test_raw_frames_and_colour_range():
@@ -349,7 +399,8 @@ def test_a_picture_too_large_for_its_sums():
     path = write("large.raw", b"")
     with open(path, "wb") as file:
         file.truncate(2592 * 1944)
-    refused(1, ["large.raw", "2592x1944", "too large"],
+    refused(1, ["large.raw", "2592x1944", "too large", "resize --box",
+                "convert --crop"],
             "blobs", "-c", classes(), "--raw", "GRAY8", "2592x1944", path)
 
 
@@ -384,6 +435,8 @@ def test_bayer_counts_in_cells():
 def test_help_has_examples():
     out = ok("blobs", "--help").text
     true("Usage: pel blobs" in out and "Examples" in out, "help")
+    true("4 megapixels" in out and "--crop" in out and "not applied otherwise" in
+         " ".join(out.split()), "what it refuses and leaves alone")
     equal(out, ok("help", "blobs").text)
     true(os.path.isdir(DEMO), "the demo is there")
 

@@ -1,10 +1,12 @@
 """`pel classes`: what a class file says, and the other forms that it can be written in."""
+import glob
 import os
 import shutil
 import subprocess
-import tempfile
+from fractions import Fraction
+from math import floor
 
-from peltest import SOURCE, collect, equal, main, ok, refused, true, write
+from peltest import SOURCE, collect, equal, main, ok, paint, parse_rows, refused, true, write
 
 TEXT = """[Colors]
 (255,128,  0) 0.5000 2 orange
@@ -15,6 +17,12 @@ TEXT = """[Colors]
 #! range limited
 """
 BOXES = [(40, 200, 0, 100, 150, 255), (0, 100, 200, 255, 0, 120)]
+
+
+def limited(y, u, v):
+    """A full-range colour in limited range, rounded, halves upward."""
+    return (floor(16 + Fraction(219 * y, 255) + Fraction(1, 2)),
+            *(floor(128 + Fraction(224 * (c - 128), 255) + Fraction(1, 2)) for c in (u, v)))
 
 
 def label(y, u, v):
@@ -37,24 +45,65 @@ def test_text_round_trip():
     equal(ok("classes", "again.classes").text, ok("classes", "c.classes").text)
 
 
-def test_table_is_cmvisions_with_every_cell_classified_at_its_middle():
-    ok("classes", write("c.classes", TEXT), "c.tm")
+def table(text):
+    """The cells of the .tm that the class file becomes."""
+    ok("classes", write("c.classes", text), "c.tm")
     with open("c.tm", "rb") as file:
         data = file.read()
     header = b"TMAP\nYUV8\n16 64 64\n"
     equal(data[:len(header)], header)
-    wanted = bytes(label(16 * y + 8, 4 * u + 2, 4 * v + 2)
-                   for y in range(16) for u in range(64) for v in range(64))
-    equal(data[len(header):] == wanted, True, "65536 labels")
+    return data[len(header):]
+
+
+def middles():
+    return ((16 * y + 8, 4 * u + 2, 4 * v + 2)
+            for y in range(16) for u in range(64) for v in range(64))
+
+
+def test_table_is_cmvisions_with_every_cell_classified_at_its_middle():
+    wanted = bytes(label(*middle) for middle in middles())
+    equal(table(TEXT.replace("limited", "full")) == wanted, True, "65536 labels")
     true(1 in wanted and 2 in wanted, "both classes occur")
     equal(len(ok("classes", "c.tm").text.splitlines()), 4)
+
+
+def test_table_of_limited_classes_is_a_table_of_full_range():
+    equal(limited(0, 0, 255), (16, 16, 240))
+    equal(limited(255, 128, 128), (235, 128, 128))
+    wanted = bytes(label(*limited(*middle)) for middle in middles())
+    true(wanted != bytes(label(*middle) for middle in middles()), "the range matters")
+    equal(table(TEXT) == wanted, True, "65536 labels")
+    equal(ok("classes", "c.tm").text.splitlines()[-1], "colour range: full")
+
+
+def test_table_finds_what_its_limited_classes_find():
+    path = write("p.ppm", paint(["oo.b"], {"o": (255, 128, 0), "b": (0, 0, 255)}))
+    found = []
+    for name in (write("c.classes", TEXT), "c.tm"):
+        ok("classes", "c.classes", "c.tm")
+        rows = parse_rows(ok("blobs", "-c", name, "--csv", path).text)
+        found.append([row[:2] + row[3:] for row in rows])
+    equal([row[1:3] for row in found[0]], [(0, 2), (1, 1)])
+    equal(found[1], found[0])
+
+
+def test_limited_frames_and_a_table():
+    ok("classes", write("c.classes", TEXT), "c.tm")
+    raw = write("f.yuv", bytes(8))
+    words = ["--raw", "YUYV", "4x1", "--range", "limited", raw]
+    for command in (["blobs", "-c", "c.tm", *words], ["runs", "-c", "c.tm", *words],
+                    ["classify", "-c", "c.tm", *words, "out.ppm"]):
+        said = refused(1, ["f.yuv", "limited", "c.tm is a table", "full range", "pel convert",
+                           "the class file"], *command)
+        equal("#!" in said.err, False, "a table has no lines to write into")
+    ok("blobs", "-c", "c.classes", *words)
 
 
 def compile_and_run(source, program):
     write("main.c", program)
     includes = ["-I", os.path.join(SOURCE, "lib", "include")]
     lib = os.path.join(SOURCE, "lib", "src")
-    sources = [os.path.join(lib, name) for name in ("classify.c", "image.c", "row/row_c.c")]
+    sources = glob.glob(os.path.join(lib, "**", "*.c"), recursive=True)
     compiler = shutil.which("cc") or shutil.which("gcc")
     subprocess.run([compiler, "-std=c99", *includes, "-I", lib, "main.c", source, *sources,
                     "-o", "program"], check=True)
@@ -71,8 +120,8 @@ int main(void) {
     const pel_classifier classifier = {.boxes = &boxes};
     for (unsigned i = 0; i < 2; i++) pel_boxes_set(&boxes, i, &robot[i]);
     for (unsigned i = 0; i < 4096; i++)
-        putchar('0' + pel_classify_color(&classifier, (uint8_t)(i >> 8 << 4), (uint8_t)(i >> 4 << 4),
-                                         (uint8_t)(i << 4)));
+        putchar('0' + pel_classify_color(&classifier, (uint8_t)(i >> 8 << 4),
+                                         (uint8_t)(i >> 4 << 4), (uint8_t)(i << 4)));
 }
 """)
     equal(out, "".join(str(label(i >> 8 << 4, (i >> 4 & 15) << 4, (i & 15) << 4))
@@ -88,19 +137,22 @@ extern const uint8_t cells[65536];
 int main(void) {
     const pel_classifier classifier = {.lut = {cells, 4, 6, 6}};
     for (unsigned i = 0; i < 4096; i++)
-        putchar('0' + pel_classify_color(&classifier, (uint8_t)(i >> 8 << 4), (uint8_t)(i >> 4 << 4),
-                                         (uint8_t)(i << 4)));
+        putchar('0' + pel_classify_color(&classifier, (uint8_t)(i >> 8 << 4),
+                                         (uint8_t)(i >> 4 << 4), (uint8_t)(i << 4)));
 }
 """)
-    equal(out, "".join(str(label((i >> 8 << 4) + 8, ((i >> 4 & 15) << 4) + 2, ((i & 15) << 4) + 2))
-                       for i in range(4096)))
+    equal(out, "".join(str(label(*limited((i >> 8 << 4) + 8, ((i >> 4 & 15) << 4) + 2,
+                                          ((i & 15) << 4) + 2))) for i in range(4096)))
 
 
 def test_refusals():
     write("c.classes", TEXT)
     refused(2, ["no class file"], "classes")
     refused(2, ["'x'"], "classes", "c.classes", "y", "x")
-    refused(2, ["'1st'"], "classes", "--c-array", "1st", "c.classes", "c.c")
+    for name in ("1st", "int", "class", "_Bool", "co_await", "and"):
+        refused(2, ["'%s'" % name], "classes", "--c-array", name, "c.classes", "c.c")
+    equal(os.path.exists("c.c"), False)
+    ok("classes", "--c-array", "integer", "c.classes", "c.c")
     refused(1, ["missing.classes"], "classes", "missing.classes")
     ok("classes", "c.classes", "c.tm")
     refused(1, ["out.classes", ".tm"], "classes", "c.tm", "out.classes")

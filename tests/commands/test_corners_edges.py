@@ -14,7 +14,7 @@ from peltest import (DEMO, collect, equal, half_up, main, ok, parse_pnm, read_pn
 
 
 def tensor(rows):
-    """a, b, c at every pixel: sums over 3x3 of the products of Sobel's gradients. The edge pixels of
+    """a, b, c at every pixel: sums over 3x3 of products of Sobel's gradients. The edge pixels of
     the picture repeat without end, so gradients outside of it are those of the repeated pixels."""
     height, width = len(rows), len(rows[0])
     wide = [[rows[clamp(y, 0, height - 1)][clamp(x, 0, width - 1)] for x in range(-2, width + 2)]

@@ -239,7 +239,8 @@ def test_labels():
                          lambda seen: seen[4] or min([v for v in seen if v] or [0])))
     rows = [[5] * 12] * 4 + [[5] * 6 + [9] * 6] * 5
     write_gray("in.pgm", rows)
-    wanted = neighbourhoods(rows, 1, "replicate", lambda seen: seen[4] if len(set(seen)) == 1 else 0)
+    wanted = neighbourhoods(rows, 1, "replicate",
+                            lambda seen: seen[4] if len(set(seen)) == 1 else 0)
     true(0 < sum(map(sum, wanted)) < sum(map(sum, rows)), "the test's own picture")
     equal(filtered("erode-labels"), wanted)
 

@@ -113,7 +113,7 @@ def test_histogram_refuses():
     refused(2, ["both"], "histogram", "--csv", "-o", "-", "in.pgm")
     refused(2, ["--nonsense"], "histogram", "--nonsense")
     refused(1, ["none.pgm"], "histogram", "none.pgm")
-    refused(1, ["out.bmp", ".ppm"], "histogram", "-o", "out.bmp", "in.pgm")
+    refused(2, ["out.bmp", ".ppm"], "histogram", "-o", "out.bmp", "none.pgm")
     path = write("many.raw", b"")
     with open(path, "wb") as file:
         file.truncate(65 * 1024 * 1024)
@@ -159,10 +159,10 @@ def test_sheet_of_a_stream():
 def test_sheet_refuses():
     name = solid("a.ppm", 3, 2, RED)
     refused(2, ["OUT", "IN"], "sheet", "out.ppm")
+    refused(2, ["out.bmp", ".ppm"], "sheet", "out.bmp", "none.ppm")
     refused(2, ["--columns", "'0'"], "sheet", "--columns", 0, "out.ppm", name)
     refused(2, ["--nonsense"], "sheet", "--nonsense")
     refused(1, ["none.ppm"], "sheet", "out.ppm", "none.ppm")
-    refused(1, ["out.bmp"], "sheet", "out.bmp", name)
     refused(1, ["out.ppm", "8192"], "sheet", "--gap", 8192, "--columns", 2, "out.ppm", name, name)
     equal(os.path.exists("out.ppm"), False)
 

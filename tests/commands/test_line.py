@@ -46,7 +46,8 @@ def least_squares(points):
 
 def off(x, y, line):
     mx, my, degrees = line
-    return abs((y - my) * math.cos(math.radians(degrees)) - (x - mx) * math.sin(math.radians(degrees)))
+    angle = math.radians(degrees)
+    return abs((y - my) * math.cos(angle) - (x - mx) * math.sin(angle))
 
 
 def stripe(width, height, slope, start, thick):
@@ -104,7 +105,8 @@ def test_far_points_are_left_out():
     got = fitted()[0]
     equal(got[1:3], [48, 40])
     check([0, 40, *got[2:]], line, "robust")
-    true(off(got[3], got[4], least_squares(centres(rows))) > 1, "the others would have drawn it away")
+    true(off(got[3], got[4], least_squares(centres(rows))) > 1,
+         "the others would have drawn it away")
 
 
 def test_no_line():

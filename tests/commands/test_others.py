@@ -1,4 +1,4 @@
-"""`pel` itself, and `pel classify`, `pel runs`, `pel budget` and the command line of `pel scene`."""
+"""`pel` itself, `pel classify`, `pel runs`, `pel budget` and the command line of `pel scene`."""
 import csv
 import io
 import os
@@ -61,6 +61,24 @@ def test_unknown_words():
         refused(2, ["--nonsense"], name, "--nonsense")
 
 
+def test_inputs_are_described_in_one_place():
+    tools = os.path.join(SOURCE, "tools")
+    with_raw = []
+    for name in sorted(os.listdir(tools)):
+        if name.endswith((".c", ".h")):
+            with open(os.path.join(tools, name)) as file:
+                with_raw += [name] if '{"raw", required' in file.read() else []
+    equal(with_raw, ["options.h"])
+    path = picture(["oo"])
+    for command in (["blobs", "-c", classes(), path], ["runs", "-c", classes(), path],
+                    ["classify", "-c", classes(), path, "out.ppm"],
+                    ["convert", path, "out.ppm"]):
+        refused(2, ["unknown pixel format 'YUVY'"], *command, "--raw", "YUVY", "4x2")
+        refused(2, ["3x2", "even width"], *command, "--raw", "YUYV", "3x2")
+        refused(2, ["unknown colour range 'half'"], *command, "--range", "half")
+        refused(2, ["two words"], *command, "--raw", "YUYV")
+
+
 def test_help_on_a_full_disk():
     if os.path.exists("/dev/full"):
         with open("/dev/full", "wb") as full:
@@ -99,6 +117,7 @@ def test_classify_refuses():
     refused(2, ["-c CLASSES"], "classify", path, "out.ppm")
     refused(2, ["INPUT and OUT"], "classify", "-c", classes(), path)
     refused(1, ["none.ppm"], "classify", "-c", classes(), "none.ppm", "out.ppm")
+    refused(2, ["out.gif", ".png"], "classify", "-c", "none.classes", "none.ppm", "out.gif")
     with open(path, "rb") as file:
         data = file.read()
     refused(1, ["two.ppm", "more than one"], "classify", "-c", classes(),
@@ -146,13 +165,18 @@ def parts(*words):
     return {name: int(size) for name, size in rows[1:]}
 
 
+def eights(size):
+    return (size + 7) // 8 * 8
+
+
 def test_budget_by_hand():
     got = parts("320x240", "--classes", 8, "--open", 32, "--blobs", 16)
     equal(got["class tables"], 3 * 256)
     equal(got["camera line (beside it)"], 320 * 2)
     equal(got["label row"], 320)
-    # 24 bytes an open blob and 24 for its moments; 12 for every run of two rows, one to spare
-    equal(got["working memory"], 32 * 48 + 12 * 321)
+    # 24 bytes an open blob and 24 for its moments; 12 for every run of two rows, one to spare; in
+    # words of 8
+    equal(got["working memory"], eights(32 * 48 + 12 * 321))
     equal(got["results"], 16 * 64)
     equal(got["sum"], sum(got[name] for name in
                           ("class tables", "label row", "working memory", "results", "finder")))
@@ -163,23 +187,27 @@ def test_budget_of_measures():
     for words, slot in (("none", 24), ("moments", 48), ("outline", 32), ("color", 36),
                         ("all", 68), ("outline,color", 44)):
         got = parts("100x100", "--open", 10, "--measure", words)
-        equal(got["working memory"], 10 * slot + 12 * 101, words)
+        equal(got["working memory"], eights(10 * slot + 12 * 101), words)
 
 
 def test_budget_of_classes_and_formats():
     equal([parts("64x64", "--classes", n)["class tables"] for n in (1, 8, 9, 16, 17, 32)],
           [768, 768, 1536, 1536, 3072, 3072])
     equal([parts("64x64", "--format", name)["camera line (beside it)"]
-           for name in ("GRAY8", "YUYV", "RGB888", "NV12", "BAYER8_RGGB")],
-          [64, 128, 192, 128, 128])
+           for name in ("GRAY8", "YUYV", "VYUY", "RGB565_BE", "RGB888", "BGR888")],
+          [64, 128, 128, 128, 192, 192])
+    # a row of Y and its chroma, in one plane or two; two rows of a mosaic
+    equal([parts("64x64", "--format", name)["camera line (beside it)"]
+           for name in ("NV12", "I420", "BAYER8_RGGB", "BAYER8_BGGR")], [128] * 4)
     equal(parts("64x64", "--format", "BAYER8_RGGB")["label row"], 32)
 
 
 def test_budget_for_people():
     out = ok("budget", "320x240", "--measure", "moments,outline").text
-    true("static uint64_t work[PEL_BLOBS_WORDS(320, 32, PEL_MEASURE_MOMENTS | PEL_MEASURE_OUTLINE)];"
-         in out, "declaration")
-    true("--open 320 (work: %d bytes)" % (320 * 56 + 12 * 321) in out, "never-lose number: " + out)
+    true("static uint64_t work[PEL_BLOBS_WORDS(320, 32, "
+         "PEL_MEASURE_MOMENTS | PEL_MEASURE_OUTLINE)];" in out, "declaration")
+    true("--open 320 (work: %d bytes)" % eights(320 * 56 + 12 * 321) in out,
+         "never-lose number: " + out)
     true("PEL_CLASS_MAX=16" in ok("budget", "320x240", "--classes", 9).text, "more classes")
 
 
@@ -191,7 +219,7 @@ def test_what_budget_says_to_paste_compiles_and_has_its_size():
     checks = "".join("typedef char check_%s[sizeof %s == %d ? 1 : -1];\n" % (name, name, wanted)
                      for name, wanted in (("boxes", size["class tables"]),
                                           ("labels", size["label row"]),
-                                          ("work", (size["working memory"] + 7) // 8 * 8),
+                                          ("work", size["working memory"]),
                                           ("found", size["results"]), ("blobs", size["finder"]),
                                           ("line", size["camera line (beside it)"])))
     write("paste.c", "#include <pel.h>\n" + declarations + checks)
@@ -231,8 +259,8 @@ def test_scene_to_standard_output():
     ok("scene", "--size", "40x30", "-o", "s.ppm")
     with open("s.ppm", "rb") as file:
         equal(ok("scene", "--size", "40x30", "-o", "-").out, file.read())
-    true(ok("scene", "--size", "40x30", "--objects",
-            "-").text.startswith("id,kind,class,name,x_mm,"))
+    out = ok("scene", "--size", "40x30", "--objects", "-").text
+    true(out.startswith("id,kind,class,name,x_mm,"))
 
 
 def test_scene_comment_is_its_command_line():
@@ -248,6 +276,9 @@ def test_scene_comment_is_its_command_line():
 def test_scene_refuses():
     refused(2, ["nothing to write"], "scene")
     refused(2, ["one output"], "scene", "-o", "-", "--objects", "-")
+    refused(2, ["s.gif", ".png"], "scene", "-o", "s.gif")
+    refused(2, ["m.yuv", ".png"], "scene", "-o", "s.ppm", "--mask", "m.yuv")
+    equal(os.listdir("."), [])
     refused(2, ["'extra'"], "scene", "-o", "s.ppm", "extra")
     refused(2, ["--pitch", "-90 to 90", "'91'"], "scene", "-o", "s.ppm", "--pitch", "91")
     refused(2, ["--fov"], "scene", "-o", "s.ppm", "--fov", "9.9")

@@ -188,7 +188,7 @@ def nearest(rows, width, height):
 
 
 def axis(i, length, size):
-    """Where pixel i of `size` lies among `length`: a pixel, and the weight of the next in 1/2048."""
+    """Where pixel i of `size` lies among `length`: a pixel, the weight of the next in 1/2048."""
     point = (Fraction(i) + Fraction(1, 2)) * length / size - Fraction(1, 2)
     whole = point.numerator // point.denominator
     if whole < 0:

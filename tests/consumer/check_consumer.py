@@ -7,8 +7,10 @@ import os
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import sys
+import tempfile
 
 ROOT = pathlib.Path(os.environ["PEL_SOURCE_DIR"])
 HERE = ROOT / "tests/consumer"
@@ -100,7 +102,7 @@ def check_subdirectory(out):
 
 def install(out, classes):
     """Installs and moves the result, so that nothing in it may know where it was. The new place."""
-    build, prefix, moved = out / f"build{classes}", out / f"prefix{classes}", out / f"moved{classes}"
+    build, prefix, moved = (out / f"{name}{classes}" for name in ("build", "prefix", "moved"))
     if not (step("install: configure", "cmake", "-S", ROOT, "-B", build, "-DPEL_BUILD_TESTS=OFF",
                  f"-DPEL_CLASS_MAX={classes}", f"-DCMAKE_INSTALL_PREFIX={prefix}",
                  f"-DCMAKE_C_COMPILER={CC}")
@@ -174,16 +176,46 @@ def check_readme_commands():
         skip("the README's commands: not built")
         return
     command = os.environ["PEL_COMMAND"]
-    named = set(re.findall(r"^    pel (\w+)", (ROOT / "README.md").read_text(), re.M))
-    listed = {path.stem[4:] for path in (ROOT / "tools").glob("cmd_*.c")}
-    check(named <= listed and len(named) >= 5, "commands of the README",
-          f"named {sorted(named)}, there are {sorted(listed)}")
+    readme = (ROOT / "README.md").read_text()
+    named = set(re.findall(r"^    pel (\w+)", readme, re.M))
+    usage, rest = run(command, "--help").stdout.split("FILE...\n\n")
+    listed = set(re.findall(r"^  (\w+) ", rest.split("\n\n")[0], re.M))
+    sources = {path.stem[4:] for path in (ROOT / "tools").glob("cmd_*.c")}
+    check(named == listed and listed == sources and len(named) >= 5, "commands of the README",
+          f"named {sorted(named)}, listed {sorted(listed)}, written {sorted(sources)}")
     for name in sorted(listed):
         result = run(command, name, "--help")
         check(result.returncode == 0 and f"pel {name}" in result.stdout, f"pel {name} --help",
               result.stdout)
-    result = run(command, "budget", "320x240", "--classes", "8", "--open", "32", "--blobs", "16")
-    check(result.returncode == 0, "pel budget as the README has it", result.stdout)
+    check_readme_budget(command, readme)
+    check_readme_convert(command, readme)
+
+
+def check_readme_budget(command, readme):
+    """The README's `pel budget` gives its table's RAM, but for the pointers of this machine."""
+    words = re.search(r"`pel (budget 320x240 [^`]*)`", readme).group(1).split()
+    here, there = map(int, re.search(r"the finder is (\d+) bytes\s+with 64-bit pointers and (\d+) "
+                                     r"on Cortex-M", readme).groups())
+    table = set(re.search(r"^\| RAM for blobs, 320x240[^|]*\|(.*)\|$", readme, re.M)
+                .group(1).replace(" ", "").split("|"))
+    result = run(command, *words, "--csv")
+    parts = dict(re.findall(r"^(.*),(\d+)$", result.stdout, re.M))
+    check(result.returncode == 0 and "sum" in parts, "pel budget as the README has it",
+          result.stdout)
+    if struct.calcsize("P") == 8:
+        check(int(parts["finder"]) == here, "the README's finder", result.stdout)
+    ram = int(parts["sum"]) - int(parts["finder"]) + there
+    check(table == {str(ram)}, "the README's RAM", f"table {sorted(table)}, pel budget {ram}")
+
+
+def check_readme_convert(command, readme):
+    """The README's `pel convert` line takes the demo's picture."""
+    words = re.search(r"^    pel (convert .*?)  ", readme, re.M).group(1).split()
+    with tempfile.TemporaryDirectory() as folder:
+        given = pathlib.Path(folder) / next(word for word in words if word.endswith(".png"))
+        shutil.copy(ROOT / "tools/demo/annotated.png", given)
+        result = run(command, *words, cwd=folder)
+        check(result.returncode == 0, "pel convert as the README has it", result.stdout)
 
 
 def main():

@@ -21,9 +21,16 @@ check() {
 rm -rf "$out/demo-out"
 mkdir -p "$out"
 cd "$out" || exit 1 # the demo is called from anywhere
-sh "$source_dir/tools/demo.sh" "$out" >"$out/demo.txt" 2>&1
+mkdir -p "$out/bin"
+rm -f "$out/cmake-words.txt"
+printf '#!/bin/sh\necho "$*" >>"%s"\nexec "%s" "$@"\n' "$out/cmake-words.txt" \
+    "$(command -v cmake)" >"$out/bin/cmake"
+chmod +x "$out/bin/cmake"
+PATH=$out/bin:$PATH sh "$source_dir/tools/demo.sh" "$out" >"$out/demo.txt" 2>&1
 check "the demo's exit status" test $? -eq 0
 cat "$out/demo.txt"
+# A number is given: without one, make starts everything at once, which small machines do not bear.
+check "the demo says how many jobs" grep -q -- '--parallel [0-9]' "$out/cmake-words.txt"
 
 # Columns of the table that hold a class of the demo's class file.
 classes=$(sed -n 's/^(.*) *[0-9.]* *[0-9]* *\([a-z_]*\) *$/\1/p' \

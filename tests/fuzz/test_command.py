@@ -1,6 +1,6 @@
-"""The command itself and bad input: exit status 1, one line on standard error that names the file and
-the fault, nothing on standard output and no file left behind. Wrong usage: exit status 2. And what
-`pel convert` makes of good input, compared with Pillow."""
+"""The command itself and bad input: exit status 1, one line on standard error that names the file
+and the fault, nothing on standard output and no file left behind. Wrong usage: exit status 2. And
+what `pel convert` makes of good input, compared with Pillow."""
 import os
 import pathlib
 import subprocess
@@ -77,6 +77,8 @@ def check_usage(folder):
                   ["--raw", "YUYV", "4294967298x2", good, "-"],
                   ["--range", "half", good, "-"], ["--frame", "-1", good, "-"],
                   ["--frame", "x", good, "-"],
+                  ["--c-array", "int", "--to", "YUYV", good, "-"],
+                  ["--c-array", "virtual", "--to", "YUYV", good, "-"],
                   ["--c-array", "9a", "--to", "YUYV", good, "-"], ["--c-array", "a", good, "-"],
                   ["--to", "YUYV", good, folder / "a.png"], ["--to", "png", good, folder / "a.ppm"],
                   ["--nonsense"]):
@@ -116,6 +118,47 @@ def check_files(folder):
                   f"a full disk {words}: {got.stderr}")
 
 
+def check_crop(folder):
+    """What --crop leaves, byte for byte, and what it refuses."""
+    rgb = bytes(range(6 * 4 * 3))
+    picture, out = folder / "crop.ppm", folder / "part.ppm"
+    picture.write_bytes(b"P6\n6 4\n255\n" + rgb)
+    got = pel("convert", "--crop", "1,2,5,4", picture, out)
+    want = b"".join(rgb[18 * y + 3:18 * y + 15] for y in (2, 3))
+    check(got.returncode == 0 and out.read_bytes() == b"P6\n4 2\n255\n" + want,
+          f"a part of a PPM: {got.stderr}")
+    yuyv = bytes(range(12 * 4))
+    raw = ["--raw", "YUYV", "6x4"]
+    got = pel("convert", *raw, "--crop", "2,1,4,3", "-", folder / "part.raw", stdin=yuyv * 2)
+    want = yuyv[16:20] + yuyv[28:32]
+    check(got.returncode == 0 and (folder / "part.raw").read_bytes() == want * 2,
+          f"a part of two YUYV frames: {got.stderr}")
+    i420 = bytes(range(36))  # 6 x 4: Y, then 3 x 2 of U, then of V
+    got = pel("convert", "--raw", "I420", "6x4", "--crop", "2,2,6,4", "-", folder / "part.yuv",
+              stdin=i420)
+    want = i420[14:18] + i420[20:24] + i420[28:30] + i420[34:36]
+    check(got.returncode == 0 and (folder / "part.yuv").read_bytes() == want,
+          f"a part of an I420 frame: {got.stderr}")
+    got = pel("convert", "--to", "YUYV", "--crop", "1,0,5,4", picture, folder / "even.yuv")
+    check(got.returncode == 0 and (folder / "even.yuv").stat().st_size == 4 * 4 * 2,
+          f"RGB may be cut anywhere: {got.stderr}")
+    odd = CORPUS / "good" / "binary.ppm"
+    got = pel("convert", "--to", "YUYV", odd, "-")
+    check(got.returncode == 1 and b"even width" in got.stderr and b"--crop" in got.stderr,
+          f"an odd width: the way out is named: {got.stderr}")
+    got = pel("convert", *raw, "--crop", "1,0,4,2", "-", "-", "--to", "ppm", stdin=yuyv)
+    check(got.returncode == 1 and b"1,0,4,2 cuts through pixels of YUYV" in got.stderr
+          and got.stdout == b"", f"through a pair: {got.stderr}")
+    got = pel("convert", "--crop", "0,0,7,4", picture, folder / "none.ppm")
+    check(got.returncode == 1 and b"0,0,7,4 is not inside the picture of 6x4" in got.stderr
+          and not (folder / "none.ppm").exists(), f"outside: {got.stderr}")
+    for word in ("1,1,1,4", "3,0,2,4", "0,0,4", "0,0,4,4,4", "0,0,4,x", "-1,0,4,4", "0,0,8193,4",
+                 ""):
+        got = pel("convert", "--crop", word, picture, folder / "none.ppm")
+        check(got.returncode == 2 and b"--crop needs X0,Y0,X1,Y1" in got.stderr,
+              f"--crop {word}: {got.stderr}")
+
+
 def check_c_array(folder):
     source, program = folder / "shot.c", folder / "shot"
     picture = CORPUS / "good" / "video422.y4m"
@@ -124,10 +167,11 @@ def check_c_array(folder):
     main = folder / "main.c"
     main.write_text('#include <stdio.h>\n#include "shot.c"\nint main(void)\n{\n'
                     "    printf(\"%d %d \", shot_width, shot_height);\n"
-                    "    for (unsigned i = 0; i < sizeof shot; i++) { printf(\"%d \", shot[i]); }\n    return 0;\n}\n")
+                    "    for (unsigned i = 0; i < sizeof shot; i++) { printf(\"%d \", shot[i]); }\n"
+                    "    return 0;\n}\n")
     compiler = os.environ.get("PEL_CC", "cc")
-    built = subprocess.run([compiler, "-std=c99", "-Wall", "-Wextra", "-Werror", main, "-o",
-                            program],
+    built = subprocess.run([compiler, "-std=c99", "-Wall", "-Wextra", "-Werror", main,
+                            "-o", program],
                            capture_output=True)
     check(built.returncode == 0, f"C array: {built.stderr}")
     if built.returncode == 0:
@@ -167,6 +211,7 @@ def main():
         check_corpus(folder)
         check_pipe()
         check_files(folder)
+        check_crop(folder)
         check_c_array(folder)
         check_against_pillow(folder)
     print(f"{passed} passed, {failed} failed, {skipped} skipped")

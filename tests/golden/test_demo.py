@@ -1,13 +1,12 @@
-"""The shipped picture: the renderer makes it again byte for byte, and what the command finds in it is
-what a flood fill over its pixels finds."""
+"""The shipped picture: the renderer makes it again byte for byte, and what the command finds in it
+is what a flood fill over its pixels finds."""
 import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "commands"))
 
-from peltest import (DEMO, classify, collect, contract_rows, equal, main, ok, parse_pnm, parse_rows,
-                     # noqa: E402
-                     read_classes, read_pnm, true)
+from peltest import (DEMO, classify, collect, contract_rows, equal, main, ok,  # noqa: E402
+                     parse_pnm, parse_rows, read_classes, read_pnm, true)
 
 PICTURE = os.path.join(DEMO, "robot.ppm")
 CLASSES = os.path.join(DEMO, "robot.classes")

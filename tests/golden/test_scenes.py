@@ -1,5 +1,5 @@
-"""`pel scene` tells the truth: its mask, its object list and its picture agree with each other and with
-the geometry of a pin-hole camera, computed here once more in floating point."""
+"""`pel scene` tells the truth: its mask, its object list and its picture agree with each other and
+with the geometry of a pin-hole camera, computed here once more in floating point."""
 import csv
 import math
 import os
@@ -13,8 +13,8 @@ from peltest import (classify, collect, contract_rows, equal, main, ok, parse_ro
 VIEWS = [
     ["--seed", "1"],
     ["--seed", "2", "--height", "900", "--pitch", "50", "--balls", "8", "--cones", "5"],
-    ["--seed", "3", "--height", "60", "--pitch", "0", "--fov", "90", "--balls", "2", "--cones",
-     "1"],
+    ["--seed", "3", "--height", "60", "--pitch", "0", "--fov", "90", "--balls", "2",
+     "--cones", "1"],
     ["--seed", "4", "--height", "1200", "--pitch", "90", "--balls", "3", "--cones", "3"],
     ["--seed", "5", "--size", "161x121", "--pitch", "25.5", "--fov", "40.25"],
 ]

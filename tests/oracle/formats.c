@@ -358,8 +358,8 @@ static void find_by_library(const test_frame *frame, pel_range range, int connec
     uint8_t labels[WIDTH_MAX];
 
     memset(&config, 0, sizeof config);
-    config.width = pel_colour_width(frame->view.format, frame->view.width);
-    config.height = pel_colour_height(frame->view.format, frame->view.height);
+    config.width = pel_color_width(frame->view.format, frame->view.width);
+    config.height = pel_color_height(frame->view.format, frame->view.height);
     config.open_max = WIDTH_MAX;
     config.connectivity = (uint8_t)connectivity;
     config.measure = PEL_MEASURE_ALL;

@@ -93,7 +93,7 @@ def call_graph(stems):
 
 
 def deepest(name, calls, frames, path=()):
-    """Bytes of stack of the deepest chain of calls from here down; None where calls go in a ring."""
+    """Bytes of stack of the deepest chain of calls from here down; None if calls go in a ring."""
     if name in path:
         return None
     depths = [deepest(callee, calls, frames, path + (name,)) for callee in calls[name]]
@@ -204,7 +204,8 @@ def main():
                 table += [(target.name, version, classes, "(stack)", stack, 0, 0),
                           (target.name, version, classes, "(memory)", memory, 0, 0)]
                 for module, row in rows.items():
-                    print(f"{target.name:12} {module:12} text {row[0]:6} data {row[1]} bss {row[2]}")
+                    print(f"{target.name:12} {module:12} text {row[0]:6} data {row[1]} "
+                          f"bss {row[2]}")
                 print(f"{target.name:12} {'all':12} text {total[0]:6} data {total[1]} "
                       f"bss {total[2]}; deepest stack {stack}; 320x240 memory {memory}")
 

@@ -260,7 +260,7 @@ static void set_wide_boxes(void)
 
 static void check_row(const pel_classifier *classifier, const pel_crow *row)
 {
-    const uint16_t width = pel_colour_width(row->format, row->width);
+    const uint16_t width = pel_color_width(row->format, row->width);
     uint8_t y[LONG], u[LONG], v[LONG], labels[LONG + 1];
     labels[width] = CANARY;
     TEST_ASSERT_EQUAL_INT(PEL_OK, pel_crow_read_yuv(row, 0, width, PEL_RANGE_FULL, y, u, v));

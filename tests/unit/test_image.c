@@ -101,8 +101,8 @@ static void test_bytes_of_the_largest_frame(void)
 static void test_colours_of_a_mosaic_are_half_as_many_each_way(void)
 {
     for (int f = 0; f < PEL_FORMAT_COUNT; f++) {
-        TEST_ASSERT_EQUAL_UINT16(8 / facts[f].cell, pel_colour_width(format_at(f), 8));
-        TEST_ASSERT_EQUAL_UINT16(6 / facts[f].cell, pel_colour_height(format_at(f), 6));
+        TEST_ASSERT_EQUAL_UINT16(8 / facts[f].cell, pel_color_width(format_at(f), 8));
+        TEST_ASSERT_EQUAL_UINT16(6 / facts[f].cell, pel_color_height(format_at(f), 6));
     }
 }
 

@@ -158,7 +158,7 @@ static void test_colours_of_rgb_rows_are_converted_as_color_rows_are(void)
 {
     for (int f = PEL_RGB565_LE; f < PEL_FORMAT_COUNT; f++) {
         const pel_crow row = long_row(f);
-        const uint16_t width = pel_colour_width(row.format, row.width);
+        const uint16_t width = pel_color_width(row.format, row.width);
         for (unsigned r = PEL_RANGE_FULL; r <= PEL_RANGE_LIMITED; r++) {
             uint8_t y[LONG], u[LONG], v[LONG], rgb[3 * LONG], yuv[3 * LONG];
             TEST_ASSERT_EQUAL_INT(PEL_OK, pel_crow_read_yuv(&row, 0, width, (pel_range)r, y, u, v));
@@ -198,7 +198,7 @@ static void test_rows_may_be_read_from_any_column_and_in_any_length(void)
 {
     for (int f = 0; f < PEL_FORMAT_COUNT; f++) {
         const pel_crow row = long_row(f);
-        const uint16_t width = pel_colour_width(row.format, row.width);
+        const uint16_t width = pel_color_width(row.format, row.width);
         yuv_row whole;
         pel_crow_read_yuv(&row, 0, width, PEL_RANGE_FULL, whole.y, whole.u, whole.v);
         for (uint16_t x = 0; x <= width; x++) {

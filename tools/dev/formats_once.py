@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Pixel formats are told apart in one place of the library and one of the command.
 
-Fails where any other file of lib/, ports/ or tools/ switches over formats or has a table with a
-line per format, so that a new format stays one row in one table.
+Fails where any other file of lib/, ports/ or tools/ switches over formats, has a table with a line
+per format or relies on their order, so that a new format stays one row in one table.
 """
 import pathlib
 import re
@@ -18,7 +18,8 @@ def main():
     names = [name for name in re.findall(r"^\s*(PEL_\w+)", body, re.M)
              if name != "PEL_FORMAT_COUNT"]
     either = "|".join(names)
-    fault = re.compile(rf"\bcase\s+(?:{either})\b|\[\s*(?:{either})\s*\]\s*=")
+    fault = re.compile(rf"\bcase\s+(?:{either})\b|\[\s*(?:{either})\s*\]\s*=|"
+                       rf"[<>]=?\s*(?:{either})\b")
 
     files = failed = 0
     for top in ("lib", "ports", "tools"):

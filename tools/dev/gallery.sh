@@ -1,6 +1,6 @@
 #!/bin/sh
-# Shows every operator of `pel` on a small picture: joins the results into operators.png and lists
-# the commands that made them, in the same order, in operators.md.
+# Shows every operator of `pel` on a small picture: joins the results into strips, operators/*.png,
+# lists the commands that made them in operators.md, and writes the table of the README.
 #     gallery.sh [FOLDER]      default: tools/demo
 # PEL_COMMAND is the command to use, default: pel.
 set -eu
@@ -42,10 +42,17 @@ make() {
     count=$((count + 1))
 }
 
+# signed NAME SHIFT: a filter whose results have a sign, around middle gray.
+signed() {
+    make "$1" filter "$1" --gray --shift "$2" --bias 128 in.ppm out.ppm
+}
+
 make 'the picture itself' convert in.ppm out.ppm
 for name in $("$pel" filter --list | cut -d ' ' -f 1); do
     case $name in
-        sobel-* | prewitt-*) make "$name" filter "$name" --gray --shift 2 --bias 128 in.ppm out.ppm ;;
+        sobel-* | prewitt-*)
+            make "$name" filter "$name" --gray --shift 2 --bias 128 in.ppm out.ppm
+            ;;
         scharr-*) make "$name" filter "$name" --gray --shift 4 --bias 128 in.ppm out.ppm ;;
         laplacian*) make "$name" filter "$name" --gray --shift 1 --bias 128 in.ppm out.ppm ;;
         shift-*) make "$name" filter "$name" --repeat 12 --border wrap in.ppm out.ppm ;;
@@ -85,23 +92,53 @@ for name in $("$pel" point --list | cut -d ' ' -f 1); do
         *) make "$name" point "$name" in.ppm out.ppm ;;
     esac
 done
-make 'corners, Harris' corners --max 15 -o out.ppm --csv in.ppm > numbers.csv
-make 'corners, Shi-Tomasi' corners --method shi-tomasi --max 15 -o out.ppm --csv in.ppm > numbers.csv
-make 'corners, FAST' corners --method fast --max 15 -o out.ppm --csv in.ppm > numbers.csv
+for method in harris shi-tomasi fast; do
+    make "corners, $method" corners --method $method --max 15 -o out.ppm in.ppm > list.txt
+done
 make 'edges' edges in.ppm out.ppm
 make 'edges, linked by rows' edges --link rows in.ppm out.ppm
 make 'edges, not linked' edges --link none in.ppm out.ppm
-make 'line' line --columns --length 1-4 --roi 0,40,112,56 -o out.ppm --csv mask.pgm > numbers.csv
-"$pel" histogram -o histogram.ppm --csv "$root/tools/demo/robot.ppm" > numbers.csv
+make 'line' line --columns --length 1-4 --roi 0,40,112,56 -o out.ppm mask.pgm > list.txt
+"$pel" histogram -o histogram.ppm "$root/tools/demo/robot.ppm" > list.txt
 make 'histogram (of robot.ppm)' point resize 112x56 histogram.ppm out.ppm
 
-"$pel" sheet --columns "$columns" --gap 2 sheet.ppm cell*.ppm
-coarse sheet.ppm "$folder/operators.png"
+# A strip of pictures for each row, and the table that the README shows.
+rm -f "$folder"/operators/*.png
+mkdir -p "$folder/operators"
 {
-    printf 'Row and place in operators.png, and the command that made it. in.ppm is robot.ppm without\n'
-    printf 'noise, small, and in 16 steps a channel, as the sheet is (tools/dev/gallery.sh); mask.pgm is\n'
-    printf '`pel point threshold 120 in.ppm mask.pgm`, speckled.pgm is\n'
-    printf '`pel point adaptive 3 2 in.ppm speckled.pgm`.\n\n'
+    printf '| made by `pel`, from left to right | operators |\n|---|---|\n'
+    first=0
+    while [ "$first" -lt "$count" ]; do
+        strip=$((first / columns + 1))
+        cells=''
+        for number in $(seq "$first" $((first + columns - 1))); do
+            cell=$(printf 'cell%03d.ppm' "$number")
+            [ ! -f "$cell" ] || cells="$cells $cell"
+        done
+        # shellcheck disable=SC2086 # the names have no blanks
+        "$pel" sheet --columns "$columns" --gap 2 strip.ppm $cells
+        coarse strip.ppm "$folder/operators/$strip.png"
+        names=$(printf '%s' "$rows" | sed -n "s/^| $strip, [0-9]* | \\([^|]*\\) | .*/\\1/p" |
+            sed ':a;N;$!ba;s/\n/ · /g')
+        printf '| ![row %s](tools/demo/operators/%s.png) | %s |\n' "$strip" "$strip" "$names"
+        first=$((first + columns))
+    done
+} > table.md
+{
+    printf 'Row and place in operators/ROW.png, and the command that made it. in.ppm is robot.ppm\n'
+    printf 'without noise, small, and in 16 steps a channel, as the strips are\n'
+    printf '(tools/dev/gallery.sh); mask.pgm is `pel point threshold 120 in.ppm mask.pgm`,\n'
+    printf 'speckled.pgm is `pel point adaptive 3 2 in.ppm speckled.pgm`.\n\n'
     printf '| place | operator | command |\n|---|---|---|\n%s' "$rows"
 } > "$folder/operators.md"
-echo "$count pictures: $folder/operators.png, $folder/operators.md"
+
+# Between the markers in the README that lies two folders above the default one.
+if [ -f "$folder/../../README.md" ]; then
+    sed -e '/<!-- operators begin -->/,/<!-- operators end -->/{
+        /<!-- operators begin -->/{p;r table.md
+        }
+        /<!-- operators end -->/!d
+    }' "$folder/../../README.md" > README.md
+    cp README.md "$folder/../../README.md"
+fi
+echo "$count pictures: $folder/operators/*.png, $folder/operators.md"

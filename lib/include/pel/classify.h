@@ -69,7 +69,7 @@ typedef struct pel_classifier {
 } pel_classifier;
 
 /*
- * Classifies a row of any format: labels[x] for 0 <= x < pel_colour_width(row).
+ * Classifies a row of any format: labels[x] for 0 <= x < pel_color_width(row).
  * Cost per pixel: 4:2:x boxes, three look-ups at most; other formats are read in pieces of 32
  * pixels first. Stack: under 256 bytes.
  *
@@ -84,7 +84,7 @@ pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *ro
 uint8_t pel_classify_color(const pel_classifier *classifier, uint8_t y, uint8_t u, uint8_t v);
 
 /*
- * Classifies a whole view into a picture of labels, GRAY8 of pel_colour_width x pel_colour_height;
+ * Classifies a whole view into a picture of labels, GRAY8 of pel_color_width x pel_color_height;
  * a loop over pel_classify_row. Statuses as above; PEL_ERR_SPACE: `labels` has another size.
  */
 pel_status pel_classify_frame(const pel_classifier *classifier, const pel_cview *view,

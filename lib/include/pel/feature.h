@@ -173,9 +173,9 @@ pel_status pel_corners_frame(pel_corners *corners, const pel_corners_config *con
  *
  * Sets x, y, dx_q4, dy_q4 (now -8..7); the response stays. A corner that would move by more than
  * `radius` or out of the view, or that is none, stays as it is; *refined = how many did not. The
- * view must hold the rows around the corners; outside it its edge pixels repeat. The cost is that of
- * (2 radius + 1)^2 gradients for each corner and step. radius 1..5: the sums of products are then
- * under 2^30, determinants under 2^53.
+ * view must hold the rows around the corners; outside it its edge pixels repeat. The cost is that
+ * of (2 radius + 1)^2 gradients for each corner and step. radius 1..5: the sums of products are
+ * then under 2^30, determinants under 2^53.
  *
  * PEL_ERR_ARG: null pointer, radius out of range. PEL_ERR_FORMAT: not GRAY8. PEL_ERR_RANGE: a
  * corner outside the view; nothing was moved.
@@ -334,8 +334,8 @@ typedef struct pel_line {
                              degrees down to the right, -16384 upright; within 2 units */
 } pel_line;
 
-/* The most points that a line can be fitted to, and the largest coordinate: -131072..131071, that is
- * 8192 pixels. With both, sums of coordinates stay within 2^30, of squares within 2^48. */
+/* The most points that a line can be fitted to, and the largest coordinate: -131072..131071, that
+ * is 8192 pixels. With both, sums of coordinates stay within 2^30, of squares within 2^48. */
 #define PEL_LINE_POINTS_MAX 4096
 #define PEL_LINE_COORDINATE_MAX_Q4 131071
 

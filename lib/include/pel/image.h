@@ -129,10 +129,10 @@ pel_status pel_view_crop(const pel_view *view, uint16_t x0, uint16_t x1, uint16_
 
 /* Columns and rows of colours: the size of the view, or half of it for Bayer. Label rows and blobs
  * count in these. */
-uint16_t pel_colour_width(pel_format format, uint16_t width);
-uint16_t pel_colour_height(pel_format format, uint16_t height);
+uint16_t pel_color_width(pel_format format, uint16_t width);
+uint16_t pel_color_height(pel_format format, uint16_t height);
 
-/* Row y of the colours of a view, 0 <= y < pel_colour_height. Not checked: for use in loops. */
+/* Row y of the colours of a view, 0 <= y < pel_color_height. Not checked: for use in loops. */
 pel_crow pel_cview_row(const pel_cview *view, uint16_t y);
 
 /* A row of a packed format (all but NV12, I420 and Bayer) as a camera's line buffer holds it. */
@@ -148,7 +148,7 @@ pel_status pel_crow_check(const pel_crow *row);
  * its R, its B and the mean of its two G, halves upward.
  *
  * PEL_ERR_ARG: null pointer, unknown format or range, outputs that overlap the row or each other.
- * PEL_ERR_RANGE: x + count is over pel_colour_width. PEL_ERR_FORMAT: impossible width, or a YCbCr
+ * PEL_ERR_RANGE: x + count is over pel_color_width. PEL_ERR_FORMAT: impossible width, or a YCbCr
  * row whose range is not the one asked.
  */
 pel_status pel_crow_read_yuv(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
