@@ -418,7 +418,7 @@ static pel_row_scale scale_of(const pel_filter *f)
     return scale;
 }
 
-enum { CHUNK = 32 }; /* sums kept at a time: 128 bytes of stack */
+enum { CHUNK = 16 }; /* sums kept at a time: 64 bytes of stack */
 
 /* Sums in pieces, each scaled into `bytes` or, if that is NULL, into `words`. */
 static void scale_row(const pel_filter *f, const uint8_t *rows[5], uint16_t count, uint8_t *bytes,

@@ -4,19 +4,20 @@
 #include "format.h"
 #include "frames.h"
 
-/* The config with what the picture says. */
-static pel_filter_config config_for(const pel_filter_config *config, const pel_cview *src)
+/* The filter takes what the picture says into its config, in place: a second config would weigh on
+ * the stack. */
+static void set_picture(pel_filter *filter, const pel_filter_config *config, const pel_cview *src)
 {
-    pel_filter_config c = *config;
-    const int r = c.op == PEL_FILTER_KERNEL && c.kernel && c.kernel->radius == 2 ? 2 : 1;
+    pel_filter_config *const c = &filter->config;
 
-    c.width = src->width;
-    c.height = src->height;
-    for (int i = 0; i < r; i++) {
-        const int32_t y = pel_border_index(i - r, src->height, PEL_BORDER_WRAP);
-        c.last_rows[i] = pel_i_row(src, (uint16_t)y);
+    *c = *config;
+    c->width = src->width;
+    c->height = src->height;
+    for (int i = 0; i < 2; i++) {
+        const int r = c->op == PEL_FILTER_KERNEL && c->kernel && c->kernel->radius == 2 ? 2 : 1;
+        const int32_t y = pel_border_index(i < r ? i - r : -1, src->height, PEL_BORDER_WRAP);
+        c->last_rows[i] = pel_i_row(src, (uint16_t)y);
     }
-    return c;
 }
 
 /* Pulls all rows that are ready into their places. */
@@ -32,28 +33,19 @@ static void pull_into(pel_filter *filter, const pel_view *dst)
 pel_status pel_filter_frame(const pel_filter_config *config, const pel_cview *src,
                             const pel_view *dst)
 {
-    pel_status status = config && dst ? pel_i_check_bytes(src, 1) : PEL_ERR_ARG;
+    pel_status status = config ? pel_i_check_gray_pair(src, dst) : PEL_ERR_ARG;
     pel_filter filter;
-    pel_filter_config c;
-    pel_cview out;
 
     if (status != PEL_OK) {
         return status;
     }
-    out = pel_view_to_read(dst);
-    status = pel_i_check_bytes(&out, 1);
-    if (status == PEL_OK) {
-        status = pel_i_check_places(src, &out);
-    }
+    set_picture(&filter, config, src);
+    status = pel_filter_begin(&filter, &filter.config);
     if (status != PEL_OK) {
         return status;
     }
-    c = config_for(config, src);
-    status = pel_filter_begin(&filter, &c);
-    if (status != PEL_OK) {
-        return status;
-    }
-    if (dst->width != pel_filter_width(&c) || dst->height != pel_filter_height(&c)) {
+    if (dst->width != pel_filter_width(&filter.config) ||
+        dst->height != pel_filter_height(&filter.config)) {
         return PEL_ERR_SPACE;
     }
     for (uint16_t y = 0; y < src->height; y++) {
@@ -84,20 +76,18 @@ pel_status pel_filter_frame_s16(const pel_filter_config *config, const pel_cview
 {
     pel_status status = config && dst ? pel_i_check_bytes(src, 1) : PEL_ERR_ARG;
     pel_filter filter;
-    pel_filter_config c;
-    uint16_t width, height;
+    uint16_t height;
 
     if (status != PEL_OK) {
         return status;
     }
-    c = config_for(config, src);
-    status = pel_filter_begin(&filter, &c);
+    set_picture(&filter, config, src);
+    status = pel_filter_begin(&filter, &filter.config);
     if (status != PEL_OK) {
         return status;
     }
-    width = pel_filter_width(&c);
-    height = pel_filter_height(&c);
-    status = check_words(src, dst, stride, width, height);
+    height = pel_filter_height(&filter.config);
+    status = check_words(src, dst, stride, pel_filter_width(&filter.config), height);
     for (uint16_t y = 0; y < src->height && status == PEL_OK; y++) {
         (void)pel_filter_push(&filter, pel_i_row(src, y));
         while (filter.row < height && status == PEL_OK) {
@@ -108,52 +98,47 @@ pel_status pel_filter_frame_s16(const pel_filter_config *config, const pel_cview
     return status;
 }
 
-static pel_status check_twice(const pel_filter_config *config, const pel_cview *src,
-                              const pel_cview *dst)
+static pel_status check_twice(const pel_filter_config *config, pel_filter_op first,
+                              pel_filter_op second, const pel_cview *src, const pel_view *dst)
 {
-    if (config->border == PEL_BORDER_VALID || config->border == PEL_BORDER_WRAP || !config->work) {
+    if (first == PEL_FILTER_KERNEL || second == PEL_FILTER_KERNEL ||
+        config->border == PEL_BORDER_VALID || config->border == PEL_BORDER_WRAP || !config->work) {
         return PEL_ERR_ARG;
     }
-    if (dst->width != src->width || dst->height != src->height ||
-        config->work_bytes < PEL_FILTER_TWICE_BYTES(src->width)) {
-        return PEL_ERR_SPACE;
-    }
-    return pel_i_check_places(src, dst);
+    return dst->width != src->width || dst->height != src->height ||
+                   config->work_bytes < PEL_FILTER_TWICE_BYTES(src->width)
+               ? PEL_ERR_SPACE
+               : PEL_OK;
+}
+
+/* Begins a filter of the pair in its share of the working memory, `place` bytes from the start. */
+static pel_status begin_one(pel_filter *filter, const pel_filter_config *config, pel_filter_op op,
+                            const pel_cview *src, size_t place)
+{
+    set_picture(filter, config, src);
+    filter->config.op = op;
+    filter->config.work = (uint8_t *)config->work + place;
+    filter->config.work_bytes = PEL_FILTER_BYTES(src->width, 1);
+    return pel_filter_begin(filter, &filter->config);
 }
 
 pel_status pel_filter_twice(const pel_filter_config *config, pel_filter_op first,
                             pel_filter_op second, const pel_cview *src, const pel_view *dst)
 {
-    pel_status status = config && dst ? pel_i_check_bytes(src, 1) : PEL_ERR_ARG;
+    pel_status status = config ? pel_i_check_gray_pair(src, dst) : PEL_ERR_ARG;
     pel_filter filters[2];
-    pel_filter_config c;
-    pel_cview out;
     uint8_t *between;
 
-    if (status != PEL_OK) {
-        return status;
-    }
-    out = pel_view_to_read(dst);
-    status = pel_i_check_bytes(&out, 1);
     if (status == PEL_OK) {
-        status = first == PEL_FILTER_KERNEL || second == PEL_FILTER_KERNEL
-                     ? PEL_ERR_ARG
-                     : check_twice(config, src, &out);
+        status = check_twice(config, first, second, src, dst);
     }
     if (status != PEL_OK) {
         return status;
     }
-    c = *config;
-    c.width = src->width;
-    c.height = src->height;
-    c.op = first;
-    c.work_bytes = PEL_FILTER_BYTES(src->width, 1);
-    status = pel_filter_begin(&filters[0], &c);
-    c.op = second;
-    c.work = (uint8_t *)c.work + c.work_bytes;
-    between = (uint8_t *)c.work + c.work_bytes;
+    between = (uint8_t *)config->work + 2 * PEL_FILTER_BYTES(src->width, 1);
+    status = begin_one(&filters[0], config, first, src, 0);
     if (status == PEL_OK) {
-        status = pel_filter_begin(&filters[1], &c);
+        status = begin_one(&filters[1], config, second, src, PEL_FILTER_BYTES(src->width, 1));
     }
     for (uint16_t y = 0; y < src->height && status == PEL_OK; y++) {
         (void)pel_filter_push(&filters[0], pel_i_row(src, y));

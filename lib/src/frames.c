@@ -94,6 +94,17 @@ pel_status pel_i_check_pair(const pel_cview *src, const pel_view *dst)
     return pel_i_check_places(src, &written);
 }
 
+pel_status pel_i_check_gray_pair(const pel_cview *src, const pel_view *dst)
+{
+    pel_cview written;
+    const pel_status status = check_formats(src, dst, &written);
+
+    if (status != PEL_OK) {
+        return status;
+    }
+    return src->format == PEL_GRAY8 ? pel_i_check_places(src, &written) : PEL_ERR_FORMAT;
+}
+
 const uint8_t *pel_i_row(const pel_cview *view, uint16_t y)
 {
     return view->plane[0] + (ptrdiff_t)view->stride_bytes[0] * y;

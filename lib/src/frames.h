@@ -16,6 +16,9 @@ pel_status pel_i_check_bytes(const pel_cview *view, unsigned channels);
  * good. */
 pel_status pel_i_check_places(const pel_cview *src, const pel_cview *dst);
 
+/* PEL_OK if both are good GRAY8 views, of any two sizes, and the same pixels or apart. */
+pel_status pel_i_check_gray_pair(const pel_cview *src, const pel_view *dst);
+
 /* PEL_OK if both are good, of the same format, and do not overlap. */
 pel_status pel_i_check_apart(const pel_cview *src, const pel_view *dst);
 
