@@ -18,7 +18,8 @@ COLUMNS = (("cortex-m0", "Cortex-M0"), ("cortex-m4", "Cortex-M4"), ("cortex-m55"
            ("rv32imc", "RV32IMC"))
 # What the reader calls the modules, and how the names of their files begin, in the order of the
 # arrows.
-ROWS = (("blobs", ("blob",)), ("classify", ("classify",)), ("image", ("image",)),
+ROWS = (("blobs", ("blob",)), ("classify", ("classify",)), ("filter", ("filter",)),
+        ("point", ("point",)), ("feature", ("feature",)), ("image", ("image", "frames")),
         ("color", ("color",)), ("row kernels", ("row",)), ("fixed, status", ("fixed", "status")))
 REMARKS = ("(stack)", "(memory)")
 
