@@ -2,6 +2,8 @@
 
 #include <setjmp.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <jpeglib.h>
 
@@ -183,4 +185,65 @@ int jpegfile_read(input *in, frame *picture)
     }
     return frame_describe(picture, reader.gray ? PEL_GRAY8 : PEL_RGB888, PEL_RANGE_FULL,
                           reader.width, reader.height);
+}
+
+/* ---- Writing ------------------------------------------------------------------------------- */
+
+typedef struct jpeg_writer {
+    struct jpeg_compress_struct jpeg;
+    jpeg_errors errors;
+    uint8_t row[3 * PEL_SIDE_MAX];
+} jpeg_writer;
+
+static void set_picture(struct jpeg_compress_struct *jpeg, const pngfile_picture *picture)
+{
+    jpeg->image_width = picture->width;
+    jpeg->image_height = picture->height;
+    jpeg->input_components = picture->gray ? 1 : 3;
+    jpeg->in_color_space = picture->gray ? JCS_GRAYSCALE : JCS_RGB;
+    jpeg_set_defaults(jpeg);
+    jpeg_set_quality(jpeg, 95, TRUE);
+    jpeg->comp_info[0].h_samp_factor = 1; /* as many samples of Y as of U and V */
+    jpeg->comp_info[0].v_samp_factor = 1;
+}
+
+static void write_rows(jpeg_writer *writer, const pngfile_picture *picture)
+{
+    JSAMPROW row = writer->row;
+
+    jpeg_start_compress(&writer->jpeg, TRUE);
+    if (picture->comment) {
+        jpeg_write_marker(&writer->jpeg, JPEG_COM, (const JOCTET *)picture->comment,
+                          (unsigned)strlen(picture->comment));
+    }
+    for (unsigned y = 0; y < picture->height; y++) {
+        picture->fill_row(picture->user, y, writer->row);
+        jpeg_write_scanlines(&writer->jpeg, &row, 1);
+    }
+    jpeg_finish_compress(&writer->jpeg);
+}
+
+int jpegfile_write(FILE *file, const pngfile_picture *picture, char message[PNGFILE_MESSAGE_BYTES])
+{
+    jpeg_writer *const writer = calloc(1, sizeof *writer);
+
+    if (!writer) {
+        snprintf(message, PNGFILE_MESSAGE_BYTES, "not enough memory");
+        return -1;
+    }
+    writer->jpeg.err = jpeg_std_error(&writer->errors.base);
+    writer->errors.base.error_exit = fail;
+    if (setjmp(writer->errors.jump)) {
+        snprintf(message, PNGFILE_MESSAGE_BYTES, "%s", writer->errors.message);
+        jpeg_destroy_compress(&writer->jpeg);
+        free(writer);
+        return -1;
+    }
+    jpeg_create_compress(&writer->jpeg);
+    jpeg_stdio_dest(&writer->jpeg, file);
+    set_picture(&writer->jpeg, picture);
+    write_rows(writer, picture);
+    jpeg_destroy_compress(&writer->jpeg);
+    free(writer);
+    return 0;
 }

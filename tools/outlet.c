@@ -27,7 +27,8 @@ int outlet_begin(outlet *to, const char *command, const char *in, const char *pa
 {
     sink_kind kind;
     to->path = path;
-    if (!is_stdout(to) && (sink_kind_by_path(path, &kind) || kind == SINK_RAW)) {
+    if (!is_stdout(to) &&
+        (sink_kind_by_path(path, &kind) || kind == SINK_RAW || kind == SINK_JPEG)) {
         *status = usage_error(command, "'%s' ends in none of .ppm .pgm .png .y4m", path);
         return -1;
     }

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "jpegfile.h"
 #include "options.h"
 #include "pack.h"
 #include "pngfile.h"
@@ -17,8 +18,8 @@ static const struct {
     const char *name;
     sink_kind kind;
 } endings[] = {
-    {"ppm", SINK_PPM}, {"pgm", SINK_PGM}, {"png", SINK_PNG},
-    {"y4m", SINK_Y4M}, {"raw", SINK_RAW}, {"yuv", SINK_RAW},
+    {"ppm", SINK_PPM}, {"pgm", SINK_PGM}, {"png", SINK_PNG},  {"y4m", SINK_Y4M},
+    {"raw", SINK_RAW}, {"yuv", SINK_RAW}, {"jpg", SINK_JPEG}, {"jpeg", SINK_JPEG},
 };
 
 int sink_kind_by_name(const char *name, sink_kind *kind)
@@ -130,14 +131,18 @@ static void fill_gray(void *user, unsigned y, uint8_t *row)
     pack_gray_row(user, y, row);
 }
 
-static int write_png(sink *to, const pel_cview *view)
+/* PNG and JPEG. */
+static int write_coded(sink *to, const pel_cview *view)
 {
+    const int is_png = to->kind == SINK_PNG;
+    const char *const name = is_png ? "PNG" : "JPEG";
     pel_cview copy = *view;
     pngfile_picture picture;
     char message[PNGFILE_MESSAGE_BYTES];
 
     if (to->frames > 0) {
-        return say_error(name_of(to->path), "a PNG holds one picture; choose one with --frame N");
+        return say_error(name_of(to->path), "a %s holds one picture; choose one with --frame N",
+                         name);
     }
     picture.width = pel_color_width(view->format, view->width);
     picture.height = pel_color_height(view->format, view->height);
@@ -145,8 +150,8 @@ static int write_png(sink *to, const pel_cview *view)
     picture.comment = to->comment;
     picture.fill_row = picture.gray ? fill_gray : fill_rgb;
     picture.user = &copy;
-    if (pngfile_write(to->file, &picture, message)) {
-        return say_error(name_of(to->path), "PNG: %s", message);
+    if ((is_png ? pngfile_write : jpegfile_write)(to->file, &picture, message)) {
+        return say_error(name_of(to->path), "%s: %s", name, message);
     }
     return 0;
 }
@@ -174,8 +179,8 @@ static int write_raw(sink *to, const pel_cview *view)
 int sink_frame(sink *to, const pel_cview *view)
 {
     static int (*const writers[SINK_KIND_COUNT])(sink *, const pel_cview *) = {
-        [SINK_PPM] = write_pnm, [SINK_PGM] = write_pnm, [SINK_PNG] = write_png,
-        [SINK_Y4M] = write_y4m, [SINK_RAW] = write_raw,
+        [SINK_PPM] = write_pnm,    [SINK_PGM] = write_pnm, [SINK_PNG] = write_coded,
+        [SINK_JPEG] = write_coded, [SINK_Y4M] = write_y4m, [SINK_RAW] = write_raw,
     };
 
     errno = 0;

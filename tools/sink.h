@@ -1,6 +1,6 @@
 /*
- * Where pictures go. The ending of the name decides the format: .ppm .pgm .png .y4m .yuv/.raw; "-"
- * is standard output (then `kind` decides).
+ * Where pictures go. The ending of the name decides the format: .ppm .pgm .png .jpg .y4m
+ * .yuv/.raw; "-" is standard output (then `kind` decides).
  *
  * A file is complete or it is not there: everything that is written is checked, and after an error
  * the file is removed if it is a regular one.
@@ -24,9 +24,10 @@ int sink_check_picture(const char *path);
 typedef enum sink_kind {
     SINK_PPM, /* one picture after another */
     SINK_PGM,
-    SINK_PNG, /* one picture only; gray if the first is GRAY8 */
-    SINK_Y4M, /* I420, YUYV and GRAY8 frames of one size */
-    SINK_RAW, /* the bytes of any format */
+    SINK_PNG,  /* one picture only; gray if the first is GRAY8 */
+    SINK_JPEG, /* likewise */
+    SINK_Y4M,  /* I420, YUYV and GRAY8 frames of one size */
+    SINK_RAW,  /* the bytes of any format */
     SINK_KIND_COUNT
 } sink_kind;
 
@@ -34,12 +35,12 @@ typedef enum sink_kind {
  * message). sink_endings is the list for messages. */
 int sink_kind_by_name(const char *name, sink_kind *kind);
 int sink_kind_by_path(const char *path, sink_kind *kind);
-#define SINK_ENDINGS ".ppm .pgm .png .y4m .yuv .raw"
+#define SINK_ENDINGS ".ppm .pgm .png .jpg .jpeg .y4m .yuv .raw"
 
 /* A file that is being written; zero it, or let sink_open do so. */
 typedef struct sink {
     const char *path;
-    const char *comment; /* for PPM, PGM, PNG; NULL for none */
+    const char *comment; /* for PPM, PGM, PNG, JPEG; NULL for none */
     sink_kind kind;
     FILE *file;
     unsigned long frames;
