@@ -13,6 +13,7 @@ typedef struct command {
 } command;
 
 extern const command cmd_blobs, cmd_classify, cmd_runs, cmd_convert, cmd_scene, cmd_budget,
-    cmd_classes, cmd_filter, cmd_point, cmd_corners, cmd_edges, cmd_histogram, cmd_line, cmd_sheet;
+    cmd_classes, cmd_filter, cmd_point, cmd_corners, cmd_edges, cmd_histogram, cmd_line, cmd_sheet,
+    cmd_listen;
 
 #endif

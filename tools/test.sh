@@ -1,18 +1,29 @@
 #!/bin/sh
-# Builds everything and runs every test:  sh tools/test.sh [--quick]
+# Builds everything and runs every test:  sh tools/test.sh [--quick | --board NAME]
 # Installs what is missing (Debian). Works in build/; the last line says how it went.
 set -eu
 
+usage() {
+    echo "usage: sh tools/test.sh [--quick | --board NAME]" >&2
+    echo "  --quick        about two minutes: without the long tests and the sanitizers" >&2
+    echo "  --board NAME   the unit suites on that board in its emulator, and nothing else;" >&2
+    echo "                 'list' names the boards, 'all' is all of them" >&2
+    exit 2
+}
+
 quick=''
-for argument in "$@"; do
-    case $argument in
+board=''
+while [ $# -gt 0 ]; do
+    case $1 in
     --quick) quick=yes ;;
-    *)
-        echo "usage: sh tools/test.sh [--quick]" >&2
-        echo "  --quick   about two minutes: without the long tests and the sanitizers" >&2
-        exit 2
+    --board)
+        [ $# -ge 2 ] || usage
+        board=$2
+        shift
         ;;
+    *) usage ;;
     esac
+    shift
 done
 
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -21,6 +32,40 @@ logs=$build/logs
 mkdir -p "$logs"
 cd "$root"
 . tools/dev/need.sh
+
+# What the emulated machines of tests/target take; $1 is a board, 'all', or another of them.
+need_machines() {
+    description=ports/baremetal/boards/$1.cmake
+    if [ "$1" = all ] || grep -qs 'CORE cortexm' "$description"; then
+        need gcc-arm-none-eabi has arm-none-eabi-gcc
+        need qemu-system-arm has qemu-system-arm
+    fi
+    if [ "$1" = all ] || grep -qs 'CORE riscv' "$description"; then
+        need gcc-riscv64-unknown-elf has riscv64-unknown-elf-gcc
+        need qemu-system-misc has qemu-system-riscv32
+    fi
+    if [ "$1" = all ] || [ "$1" = s390x-linux ]; then
+        need gcc-s390x-linux-gnu has s390x-linux-gnu-gcc
+        need libc6-dev-s390x-cross test -e /usr/s390x-linux-gnu/include/stdio.h
+        need qemu-user has qemu-s390x
+    fi
+}
+
+if [ "$board" ]; then
+    need gcc has gcc
+    need libc6-dev has_header stdlib.h
+    need make has make
+    need cmake has cmake
+    need python3 has python3
+    need python3-pip python3 -m pip --version
+    need_machines "$board"
+    install_missing "$logs/install.log"
+    case $board in
+    list) exec python3 tests/target/matrix.py --list ;;
+    all) board=$(python3 tests/target/matrix.py --list | cut -d ' ' -f 1) ;;
+    esac
+    exec python3 tests/target/matrix.py --unity "$build/unity" $board
+fi
 
 need gcc has cc
 need gcc has gcc
@@ -36,8 +81,7 @@ need libpng-dev has_header png.h
 need libjpeg-dev has_header jpeglib.h
 need python3 has python3
 need python3-venv python3 -c 'import ensurepip, venv'
-need gcc-arm-none-eabi has arm-none-eabi-gcc
-need gcc-riscv64-unknown-elf has riscv64-unknown-elf-gcc
+need_machines all
 need opencv-doc test -d /usr/share/doc/opencv-doc
 install_missing "$logs/install.log"
 

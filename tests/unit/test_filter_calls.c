@@ -67,7 +67,12 @@ static void expect_begin(pel_status expected, const pel_filter_config *config)
     fill(place.bytes, CANARY, sizeof place.bytes);
     TEST_ASSERT_EQUAL_INT(expected, pel_filter_begin(&place.filter, config));
     if (expected < 0) {
-        expect_untouched(place.bytes, sizeof place.bytes);
+        /* One check: how many bytes the struct has differs from machine to machine. */
+        uint32_t touched = 0;
+        for (size_t i = 0; i < sizeof place.bytes; i++) {
+            touched += place.bytes[i] != CANARY;
+        }
+        TEST_ASSERT_EQUAL_UINT32(0, touched);
         expect_untouched(work_room, sizeof work_room);
     }
 }
