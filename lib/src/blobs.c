@@ -163,11 +163,11 @@ static void join_row(pel_blobs *b, size_t count, const uint8_t *labels)
         const unsigned label = labels[x0];
         unsigned id = NO_BLOB;
         int links = 1, shared = 1;
-        while (above->x1 <= x0 - reach) {
+        while ((int)above->x1 <= x0 - reach) { /* int: x0 - reach may be -1 */
             above++;
             ids_above++;
         }
-        for (size_t k = 0; above[k].x0 < x1 + reach; k++) {
+        for (size_t k = 0; (int)above[k].x0 < x1 + reach; k++) {
             const unsigned other = ids_above[k];
             if (label_of_id(slots, other) == label) {
                 const int from = above[k].x0, to = above[k].x1;
