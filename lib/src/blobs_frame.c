@@ -5,7 +5,7 @@
 #include "overlap.h"
 #include "pel/blobs.h"
 
-size_t pel_blobs_bytes(uint16_t width, uint16_t open_max, unsigned measure)
+uint32_t pel_blobs_bytes(uint16_t width, uint16_t open_max, unsigned measure)
 {
     return PEL_BLOBS_BYTES(width, open_max, measure);
 }
@@ -38,7 +38,7 @@ static pel_status check_config(const pel_blobs *b, const pel_blobs_config *c)
     const uint64_t sum_limit = (uint64_t)1 << 33; /* 2 * sum_x < width * width * height */
     const uint64_t pixels = (uint64_t)c->width * c->height;
 
-    if (!c->work || (uintptr_t)c->work % 8 != 0 || (!c->results && c->results_max > 0) ||
+    if (!c->work || !pel_i_aligned8(c->work) || (!c->results && c->results_max > 0) ||
         (c->connectivity != 0 && c->connectivity != 4 && c->connectivity != 8) ||
         c->measure > PEL_MEASURE_ALL || c->open_max == 0 || c->open_max > PEL_BLOBS_OPEN_LIMIT ||
         !filter_fits(c->filter, c->measure)) {

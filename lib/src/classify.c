@@ -28,7 +28,7 @@ pel_status pel_boxes_set(pel_boxes *boxes, unsigned class_index, const pel_color
     return PEL_OK;
 }
 
-size_t pel_lut_bytes(unsigned y_bits, unsigned u_bits, unsigned v_bits)
+uint32_t pel_lut_bytes(unsigned y_bits, unsigned u_bits, unsigned v_bits)
 {
     return PEL_LUT_BYTES(y_bits, u_bits, v_bits);
 }

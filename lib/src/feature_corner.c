@@ -1,5 +1,6 @@
 #include "pel/feature.h"
 
+#include "overlap.h"
 #include "row/row_feature.h"
 
 /* ---- Working memory ------------------------------------------------------------------------ */
@@ -51,7 +52,7 @@ static void put_gray(const pel_corners *f, const uint8_t *src, uint8_t *row)
 
 enum { STATE_IDLE, STATE_ROWS };
 
-size_t pel_corners_bytes(uint16_t width, pel_corners_method method)
+uint32_t pel_corners_bytes(uint16_t width, pel_corners_method method)
 {
     return PEL_CORNERS_BYTES(width, method);
 }
@@ -63,7 +64,7 @@ static pel_status check_config(const pel_corners_config *c)
         (c->method == PEL_CORNERS_FAST9 && c->threshold > 254)) {
         return PEL_ERR_ARG;
     }
-    if (!c->work || (uintptr_t)c->work % 4u != 0 || (!c->results && c->results_max > 0)) {
+    if (!c->work || !pel_i_aligned4(c->work) || (!c->results && c->results_max > 0)) {
         return PEL_ERR_ARG;
     }
     if (c->width == 0 || c->height == 0 || c->width > PEL_SIDE_MAX || c->height > PEL_SIDE_MAX) {

@@ -1,5 +1,6 @@
 #include "pel/feature.h"
 
+#include "overlap.h"
 #include "row/row_feature.h"
 
 /* ---- Working memory ------------------------------------------------------------------------ */
@@ -29,14 +30,14 @@ static void clear_gradients(uint16_t *row, uint16_t width)
 
 enum { STATE_IDLE, STATE_ROWS };
 
-size_t pel_canny_bytes(uint16_t width)
+uint32_t pel_canny_bytes(uint16_t width)
 {
     return PEL_CANNY_BYTES(width);
 }
 
 static pel_status check_config(const pel_canny_config *c)
 {
-    if (!c->work || (uintptr_t)c->work % 2u != 0 || c->low > c->high) {
+    if (!c->work || !pel_i_aligned2(c->work) || c->low > c->high) {
         return PEL_ERR_ARG;
     }
     if (c->width == 0 || c->height == 0 || c->width > PEL_SIDE_MAX || c->height > PEL_SIDE_MAX) {

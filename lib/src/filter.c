@@ -232,7 +232,7 @@ static unsigned radius_of(const pel_filter_config *c)
     return c->op == PEL_FILTER_KERNEL && c->kernel ? c->kernel->radius : 1;
 }
 
-size_t pel_filter_bytes(uint16_t width, unsigned radius, pel_border border)
+uint32_t pel_filter_bytes(uint16_t width, unsigned radius, pel_border border)
 {
     return border == PEL_BORDER_WRAP ? PEL_FILTER_BYTES_WRAP(width, radius)
                                      : PEL_FILTER_BYTES(width, radius);

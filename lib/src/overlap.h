@@ -12,4 +12,36 @@ static inline int pel_i_overlap(const void *a, size_t a_bytes, const void *b, si
     return a0 < b0 ? a0 + a_bytes > b0 && b_bytes > 0 : b0 + b_bytes > a0 && a_bytes > 0;
 }
 
+/*
+ * Whether memory can hold elements of 2, 4 or 8 bytes. How they are aligned is up to the machine:
+ * often to their size, but on AVR to nothing, and there an array of uint64_t may lie anywhere.
+ */
+struct pel_i_element2 {
+    char before;
+    uint16_t element;
+};
+struct pel_i_element4 {
+    char before;
+    uint32_t element;
+};
+struct pel_i_element8 {
+    char before;
+    uint64_t element;
+};
+
+static inline int pel_i_aligned2(const void *memory)
+{
+    return (uintptr_t)memory % offsetof(struct pel_i_element2, element) == 0;
+}
+
+static inline int pel_i_aligned4(const void *memory)
+{
+    return (uintptr_t)memory % offsetof(struct pel_i_element4, element) == 0;
+}
+
+static inline int pel_i_aligned8(const void *memory)
+{
+    return (uintptr_t)memory % offsetof(struct pel_i_element8, element) == 0;
+}
+
 #endif

@@ -2,11 +2,12 @@
 #include "pel/point.h"
 
 #include "frames.h"
+#include "overlap.h"
 #include "row/row_point.h"
 
 enum { IDLE, RUNNING };
 
-size_t pel_adaptive_bytes(uint16_t width, unsigned radius)
+uint32_t pel_adaptive_bytes(uint16_t width, unsigned radius)
 {
     return PEL_ADAPTIVE_BYTES(width, radius);
 }
@@ -28,7 +29,7 @@ static uint8_t *slot_of(const pel_adaptive *a, uint16_t y)
 
 static pel_status check_config(const pel_adaptive_config *c)
 {
-    if (!c->work || (uintptr_t)c->work % sizeof(uint16_t) != 0 || c->radius < 1 ||
+    if (!c->work || !pel_i_aligned2(c->work) || c->radius < 1 ||
         c->radius > PEL_ADAPTIVE_RADIUS_MAX || c->c < -255 || c->c > 255) {
         return PEL_ERR_ARG;
     }

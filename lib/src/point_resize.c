@@ -2,6 +2,7 @@
 #include "pel/point.h"
 
 #include "frames.h"
+#include "overlap.h"
 #include "row/row_point.h"
 
 enum { IDLE, RUNNING };
@@ -14,7 +15,7 @@ static uint8_t channels_of(const pel_resize_config *c)
     return c->channels == 0 ? 1 : c->channels;
 }
 
-size_t pel_resize_bytes(const pel_resize_config *config)
+uint32_t pel_resize_bytes(const pel_resize_config *config)
 {
     if (!config || config->channels == 2 || config->channels > 3) {
         return 0;
@@ -115,8 +116,8 @@ static int is_whole_factor(const pel_resize_config *c)
 
 static pel_status check_config(const pel_resize_config *c)
 {
-    if (!c->work || (uintptr_t)c->work % sizeof(uint32_t) != 0 ||
-        (unsigned)c->method >= PEL_RESIZE_METHOD_COUNT || c->channels == 2 || c->channels > 3) {
+    if (!c->work || !pel_i_aligned4(c->work) || (unsigned)c->method >= PEL_RESIZE_METHOD_COUNT ||
+        c->channels == 2 || c->channels > 3) {
         return PEL_ERR_ARG;
     }
     if (!is_side(c->width_in) || !is_side(c->height_in) || !is_side(c->width_out) ||

@@ -201,7 +201,7 @@ static void test_centroids_round_to_nearest(void)
     pel_blob_centroid_q16(&blob, &x_q16, &y_q16);
     TEST_ASSERT_EQUAL_INT32(21845, x_q16); /* 65536 / 3 = 21845.33 */
     TEST_ASSERT_EQUAL_INT32(43691, y_q16); /* 43690.67 */
-    blob.area = 1u << 17;
+    blob.area = (uint32_t)1 << 17;
     blob.sum_x = 1;
     blob.sum_y = 3;
     pel_blob_centroid_q16(&blob, &x_q16, &y_q16);

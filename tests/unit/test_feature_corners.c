@@ -93,7 +93,7 @@ static void test_corners_sizes(void)
     TEST_ASSERT_TRUE(4 * PEL_CORNERS_WORDS(7, PEL_CORNERS_FAST9) >=
                      PEL_CORNERS_BYTES(7, PEL_CORNERS_FAST9));
     TEST_ASSERT_TRUE(sizeof(pel_corners) < 150);
-    TEST_ASSERT_TRUE(sizeof(pel_corner) == 12);
+    TEST_ASSERT_TRUE(sizeof(pel_corner) <= 12);
 }
 
 static void expect_refused(pel_status status)
@@ -103,6 +103,12 @@ static void expect_refused(pel_status status)
     TEST_ASSERT_EQUAL_UINT32(1234, corners.found);
     setUp();
 }
+
+/* Where nothing has to be aligned, as on AVR, no memory is misaligned. */
+struct element {
+    char before;
+    uint32_t value;
+};
 
 static void test_corners_refuse(void)
 {
@@ -121,8 +127,10 @@ static void test_corners_refuse(void)
     expect_refused(PEL_ERR_ARG);
     config.work = NULL;
     expect_refused(PEL_ERR_ARG);
-    config.work = (uint8_t *)work + 2;
-    expect_refused(PEL_ERR_ARG);
+    if (offsetof(struct element, value) > 1) {
+        config.work = (uint8_t *)work + 1;
+        expect_refused(PEL_ERR_ARG);
+    }
     config.results = NULL;
     expect_refused(PEL_ERR_ARG);
     config.width = 0;
@@ -130,6 +138,8 @@ static void test_corners_refuse(void)
     config.height = PEL_SIDE_MAX + 1;
     expect_refused(PEL_ERR_RANGE);
     config.work_bytes = PEL_CORNERS_BYTES(WIDTH, PEL_CORNERS_HARRIS) - 1;
+    expect_refused(PEL_ERR_SPACE);
+    config.width = 3853; /* 65545 bytes: 9 in 16 bits */
     expect_refused(PEL_ERR_SPACE);
 }
 

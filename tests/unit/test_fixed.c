@@ -160,8 +160,8 @@ static void test_isqrt32_around_squares(void)
 static void test_isqrt32_at_its_end(void)
 {
     TEST_ASSERT_EQUAL_UINT16(65535, pel_isqrt32(UINT32_MAX));
-    TEST_ASSERT_EQUAL_UINT16(65535, pel_isqrt32(65535u * 65535u));
-    TEST_ASSERT_EQUAL_UINT16(65534, pel_isqrt32(65535u * 65535u - 1u));
+    TEST_ASSERT_EQUAL_UINT16(65535, pel_isqrt32(65535u * UINT32_C(65535)));
+    TEST_ASSERT_EQUAL_UINT16(65534, pel_isqrt32(65535u * UINT32_C(65535) - 1u));
     TEST_ASSERT_EQUAL_UINT16(32768, pel_isqrt32(0x40000000u));
     TEST_ASSERT_EQUAL_UINT16(46340, pel_isqrt32(0x7fffffffu));
 }

@@ -63,8 +63,8 @@ static void test_bytes_of_rows_and_frames(void)
         TEST_ASSERT_EQUAL_UINT32(facts[f].row_bytes, pel_row_bytes(format_at(f), 4));
         TEST_ASSERT_EQUAL_UINT32(facts[f].frame_bytes, pel_frame_bytes(format_at(f), 4, 4));
     }
-    TEST_ASSERT_EQUAL_UINT32(640u * 480u * 3u / 2u, pel_frame_bytes(PEL_NV12, 640, 480));
-    TEST_ASSERT_EQUAL_UINT32(640u * 480u * 2u, pel_frame_bytes(PEL_YUYV, 640, 480));
+    TEST_ASSERT_EQUAL_UINT32(UINT32_C(640) * 480u * 3u / 2u, pel_frame_bytes(PEL_NV12, 640, 480));
+    TEST_ASSERT_EQUAL_UINT32(UINT32_C(640) * 480u * 2u, pel_frame_bytes(PEL_YUYV, 640, 480));
 }
 
 static void test_odd_sizes_only_where_no_pixels_share_a_byte(void)
@@ -93,8 +93,9 @@ static void test_bytes_of_impossible_frames_are_zero(void)
 
 static void test_bytes_of_the_largest_frame(void)
 {
-    TEST_ASSERT_EQUAL_UINT32(3u * 8192u * 8192u, pel_frame_bytes(PEL_RGB888, SIDE_MAX, SIDE_MAX));
-    TEST_ASSERT_EQUAL_UINT32(8192u * 8192u * 3u / 2u,
+    TEST_ASSERT_EQUAL_UINT32(UINT32_C(3) * 8192u * 8192u,
+                             pel_frame_bytes(PEL_RGB888, SIDE_MAX, SIDE_MAX));
+    TEST_ASSERT_EQUAL_UINT32(UINT32_C(8192) * 8192u * 3u / 2u,
                              pel_frame_bytes(PEL_I420, SIDE_MAX, SIDE_MAX));
 }
 

@@ -142,7 +142,7 @@ typedef struct pel_run {
 } pel_run;
 
 /* How many runs a row can have, plus the one that finding them needs as room to work. */
-#define PEL_RUNS_MAX(width) ((size_t)(width) + 1u)
+#define PEL_RUNS_MAX(width) ((uint32_t)(width) + 1u)
 
 /*
  * The runs of a row of labels, from left to right; the class of a run is labels[run.x0] - 1. `runs`
@@ -169,10 +169,10 @@ uint16_t pel_find_runs(const uint8_t *labels, uint16_t width, pel_run *runs);
 #define PEL_BLOBS_SLOT_BYTES(measure)                                                              \
     (24u + (((measure)&1u) ? 24u : 0u) + (((measure)&2u) ? 8u : 0u) + (((measure)&4u) ? 12u : 0u))
 #define PEL_BLOBS_BYTES(width, open_max, measure)                                                  \
-    ((size_t)(open_max)*PEL_BLOBS_SLOT_BYTES(measure) + 12u * ((size_t)(width) + 1u))
+    ((uint32_t)(open_max)*PEL_BLOBS_SLOT_BYTES(measure) + 12u * ((uint32_t)(width) + 1u))
 #define PEL_BLOBS_WORDS(width, open_max, measure)                                                  \
     ((PEL_BLOBS_BYTES(width, open_max, measure) + 7u) / 8u)
-size_t pel_blobs_bytes(uint16_t width, uint16_t open_max, unsigned measure);
+uint32_t pel_blobs_bytes(uint16_t width, uint16_t open_max, unsigned measure);
 
 /*
  * What to find, and with which memory. Only width, height, work, work_bytes and open_max must be

@@ -52,8 +52,8 @@ typedef struct pel_lut {
 } pel_lut;
 
 /* How many bytes the cells of a table take. */
-#define PEL_LUT_BYTES(y_bits, u_bits, v_bits) ((size_t)1 << ((y_bits) + (u_bits) + (v_bits)))
-size_t pel_lut_bytes(unsigned y_bits, unsigned u_bits, unsigned v_bits);
+#define PEL_LUT_BYTES(y_bits, u_bits, v_bits) ((uint32_t)1 << ((y_bits) + (u_bits) + (v_bits)))
+uint32_t pel_lut_bytes(unsigned y_bits, unsigned u_bits, unsigned v_bits);
 
 /*
  * What classifies: boxes, or, where boxes is NULL, a look-up table. `range` is the colour range

@@ -95,10 +95,10 @@ typedef struct pel_corner {
  */
 #define PEL_CORNERS_RADIUS(method) ((method) == PEL_CORNERS_FAST9 ? 3u : 2u)
 #define PEL_CORNERS_BYTES(width, method)                                                           \
-    (12u * ((size_t)(width) + 2u) +                                                                \
-     (2u * PEL_CORNERS_RADIUS(method) + 1u) * ((size_t)(width) + 2u * PEL_CORNERS_RADIUS(method)))
+    (12u * ((uint32_t)(width) + 2u) + (2u * PEL_CORNERS_RADIUS(method) + 1u) *                     \
+                                          ((uint32_t)(width) + 2u * PEL_CORNERS_RADIUS(method)))
 #define PEL_CORNERS_WORDS(width, method) ((PEL_CORNERS_BYTES(width, method) + 3u) / 4u)
-size_t pel_corners_bytes(uint16_t width, pel_corners_method method);
+uint32_t pel_corners_bytes(uint16_t width, pel_corners_method method);
 
 /* What to find. Only width, height, work and work_bytes must be set; zero is a sane value for the
  * rest. */
@@ -202,9 +202,9 @@ enum { PEL_CANNY_NONE = 0, PEL_CANNY_WEAK = 128, PEL_CANNY_STRONG = 255 };
 /* Bytes of working memory: three rows of gray and three of 16-bit gradients, one more on either
  * side. PEL_CANNY_WORDS is the same in elements of uint16_t, which have the alignment that is
  * needed. */
-#define PEL_CANNY_BYTES(width) (9u * ((size_t)(width) + 2u))
+#define PEL_CANNY_BYTES(width) (9u * ((uint32_t)(width) + 2u))
 #define PEL_CANNY_WORDS(width) ((PEL_CANNY_BYTES(width) + 1u) / 2u)
-size_t pel_canny_bytes(uint16_t width);
+uint32_t pel_canny_bytes(uint16_t width);
 
 /* All must be set. */
 typedef struct pel_canny_config {

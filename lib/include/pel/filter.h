@@ -120,10 +120,10 @@ typedef enum pel_filter_op {
  * needs r rows more. The macros are constant expressions; the function takes the border.
  */
 #define PEL_FILTER_BYTES(width, radius)                                                            \
-    ((size_t)(2 * (radius) + 1) * ((size_t)(width) + 2 * (radius)))
+    ((uint32_t)(2 * (radius) + 1) * ((uint32_t)(width) + 2 * (radius)))
 #define PEL_FILTER_BYTES_WRAP(width, radius)                                                       \
-    ((size_t)(3 * (radius) + 1) * ((size_t)(width) + 2 * (radius)))
-size_t pel_filter_bytes(uint16_t width, unsigned radius, pel_border border);
+    ((uint32_t)(3 * (radius) + 1) * ((uint32_t)(width) + 2 * (radius)))
+uint32_t pel_filter_bytes(uint16_t width, unsigned radius, pel_border border);
 
 /* What to compute. Width, height and work must be set, and kernel for PEL_FILTER_KERNEL; zero is a
  * sane value for the rest. */
@@ -195,7 +195,7 @@ pel_status pel_filter_frame_s16(const pel_filter_config *config, const pel_cview
  * both filters and the row between them. VALID is refused (PEL_ERR_ARG), and so is WRAP, whose last
  * rows are not known between the two; so is PEL_FILTER_KERNEL. In place as above.
  */
-#define PEL_FILTER_TWICE_BYTES(width) (2 * PEL_FILTER_BYTES(width, 1) + (size_t)(width))
+#define PEL_FILTER_TWICE_BYTES(width) (2 * PEL_FILTER_BYTES(width, 1) + (uint32_t)(width))
 pel_status pel_filter_twice(const pel_filter_config *config, pel_filter_op first,
                             pel_filter_op second, const pel_cview *src, const pel_view *dst);
 

@@ -194,8 +194,8 @@ uint32_t pel_integral_box(const uint32_t *top, const uint32_t *bottom, uint16_t 
  * Memory: the 2 radius + 1 rows of the window and a 16-bit sum for each column.
  */
 #define PEL_ADAPTIVE_RADIUS_MAX 127 /* column sums of up to 255 * 255 = 65025 */
-#define PEL_ADAPTIVE_BYTES(width, radius) ((size_t)(width) * (2u * (size_t)(radius) + 3u))
-size_t pel_adaptive_bytes(uint16_t width, unsigned radius);
+#define PEL_ADAPTIVE_BYTES(width, radius) ((uint32_t)(width) * (2u * (uint32_t)(radius) + 3u))
+uint32_t pel_adaptive_bytes(uint16_t width, unsigned radius);
 
 typedef struct pel_adaptive_config {
     uint16_t width, height; /* 1..PEL_SIDE_MAX */
@@ -261,10 +261,10 @@ typedef enum pel_resize_method {
  * source rows and 4 bytes for each result column. As an array of uint32_t: PEL_RESIZE_WORDS(bytes).
  * pel_resize_bytes reads method, widths and channels of the config; 0 if they are unknown.
  */
-#define PEL_RESIZE_NEAREST_BYTES(width_in, channels) ((size_t)(width_in) * (channels))
-#define PEL_RESIZE_BOX_BYTES(width_out, channels) (4u * (size_t)(width_out) * (channels))
+#define PEL_RESIZE_NEAREST_BYTES(width_in, channels) ((uint32_t)(width_in) * (channels))
+#define PEL_RESIZE_BOX_BYTES(width_out, channels) (4u * (uint32_t)(width_out) * (channels))
 #define PEL_RESIZE_BILINEAR_BYTES(width_in, width_out, channels)                                   \
-    (2u * (size_t)(width_in) * (channels) + 4u * (size_t)(width_out))
+    (2u * (uint32_t)(width_in) * (channels) + 4u * (uint32_t)(width_out))
 #define PEL_RESIZE_WORDS(bytes) (((bytes) + 3u) / 4u)
 
 typedef struct pel_resize_config {
@@ -276,7 +276,7 @@ typedef struct pel_resize_config {
     size_t work_bytes;
 } pel_resize_config;
 
-size_t pel_resize_bytes(const pel_resize_config *config);
+uint32_t pel_resize_bytes(const pel_resize_config *config);
 
 /* A resize at work. The caller places it (under 80 bytes); private but for `row`. */
 typedef struct pel_resize {
