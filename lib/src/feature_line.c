@@ -343,12 +343,15 @@ static pel_status check_points(const pel_point_q4 *points, uint32_t count)
     return PEL_OK;
 }
 
-enum { ROUNDS_MAX = 8, DISTANCE_MAX_Q4 = 131071 };
+enum { ROUNDS_MAX = 8 };
+
+/* No enum: an int has 16 bits on some machines. */
+static const uint32_t distance_max_q4 = 131071;
 
 pel_status pel_line_fit(const pel_point_q4 *points, uint32_t count, uint32_t distance_q4,
                         unsigned rounds, pel_line *line)
 {
-    const int ok = points && line && rounds <= ROUNDS_MAX && distance_q4 <= DISTANCE_MAX_Q4;
+    const int ok = points && line && rounds <= ROUNDS_MAX && distance_q4 <= distance_max_q4;
     const pel_status status = ok ? check_points(points, count) : PEL_ERR_ARG;
     selection s = {0};
     pel_line best = {0};
