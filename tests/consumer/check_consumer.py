@@ -171,13 +171,16 @@ def check_readme(out):
 
 
 def check_readme_commands():
-    """The README names every subcommand, and each of them has a manual."""
+    """The README names every subcommand once, and each of them has a manual."""
     if "PEL_COMMAND" not in os.environ:
         skip("the README's commands: not built")
         return
     command = os.environ["PEL_COMMAND"]
     readme = (ROOT / "README.md").read_text()
-    named = set(re.findall(r"^    pel (\w+)", readme, re.M))
+    lines = re.findall(r"^    pel (\w+)", readme, re.M)
+    twice = sorted({name for name in lines if lines.count(name) > 1})
+    check(not twice, "commands that the README names more than once", str(twice))
+    named = set(lines)
     usage, rest = run(command, "--help").stdout.split("FILE...\n\n")
     listed = set(re.findall(r"^  (\w+) ", rest.split("\n\n")[0], re.M))
     sources = {path.stem[4:] for path in (ROOT / "tools").glob("cmd_*.c")}
