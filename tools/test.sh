@@ -51,6 +51,17 @@ need_machines() {
     fi
 }
 
+# What the Arduino library takes (tests/packages).
+need_arduino() {
+    need gcc-avr has avr-gcc
+    need avr-libc test -e /usr/lib/avr/include/avr/io.h
+    need libsimavr-dev has_header simavr/sim_avr.h
+    need libelf-dev has_header libelf.h
+    need arduino-builder has arduino-builder
+    need arduino-ctags has arduino-ctags
+    need arduino-core-avr test -d /usr/share/arduino/hardware/arduino/avr
+}
+
 if [ "$board" ]; then
     need gcc has gcc
     need libc6-dev has_header stdlib.h
@@ -83,6 +94,7 @@ need python3 has python3
 need python3-venv python3 -c 'import ensurepip, venv'
 need_machines all
 need opencv-doc test -d /usr/share/doc/opencv-doc
+need_arduino
 install_missing "$logs/install.log"
 
 # Python packages go into a folder of their own: the system's Python is not ours to change.
