@@ -155,8 +155,8 @@ REFUSED = {
                                  "    return 0;\n}\n", "module_add"),
     "an unknown header": ("src/module.c", None, '#include "nowhere.h"\n', "nowhere.h"),
     "a header named by a macro": ("src/module.c", None, "#include WHERE\n", "WHERE"),
-    "a header without a guard": ("src/row/row_wide.h", "#ifndef", "#if !defined(X)\n#endif\n#ifndef",
-                                 "row_wide.h"),
+    "a header without a guard": ("src/row/row_wide.h", "#ifndef",
+                                 "#if !defined(X)\n#endif\n#ifndef", "row_wide.h"),
     "a header that a source configures": ("src/row/row_wide.h", "WIDE = ", "STEP, WIDE = ", "STEP"),
     "a bracket in both branches": ("src/module.c", None, "static void f(int a)\n{\n#ifdef A\n"
                                    "    if (a) {\n#else\n    if (!a) {\n#endif\n    }\n}\n",
@@ -171,8 +171,8 @@ REFUSED = {
     "a source that is not listed": ("src/left_out.c", None, "\n", "left_out.c"),
     "a source that is not there": ("pel_files.cmake", "module.c)",
                                    "module.c ${PEL_LIB_DIR}/src/none.c)", "none.c"),
-    "a source listed twice": ("pel_files.cmake", "module.c)", "module.c ${PEL_LIB_DIR}/src/module.c)",
-                              "twice"),
+    "a source listed twice": ("pel_files.cmake", "module.c)",
+                              "module.c ${PEL_LIB_DIR}/src/module.c)", "twice"),
     "a kind of file that no package takes": ("src/table.inc", None, "1, 2\n", "table.inc"),
     "a public header that is left out": ("include/pel/more.h", None, "\n", "more.h"),
 }

@@ -1,5 +1,5 @@
-# Runs the component's CMakeLists.txt with stand-ins for ESP-IDF's functions that write down what they
-# are told.
+# Runs the component's CMakeLists.txt with stand-ins for ESP-IDF's functions that write down what
+# they are told.
 #     cmake -DCOMPONENT=folder -DOUT=file [-DPEL_CLASS_MAX=n] -P record_esp_idf.cmake
 file(WRITE ${OUT} "")
 

@@ -113,8 +113,8 @@ class File:
             return 0
         if keyword == "pragma":
             if re.search(r"\b(target|optimize|diagnostic (?!push|pop))", rest) and not pushed:
-                raise Problem(f"{self.where}: '#pragma {rest.strip()}' would reach the files behind "
-                              "it; push and pop it")
+                raise Problem(f"{self.where}: '#pragma {rest.strip()}' would reach the files "
+                              "behind it; push and pop it")
             return len(re.findall(r"\bpush", rest)) - len(re.findall(r"\bpop", rest))
         self.words |= set(WORD.findall(re.sub(r"/\*.*?\*/", " ", rest, flags=re.S)))
         if keyword == "define":

@@ -3,9 +3,9 @@
 
     pack.py KIND [OUT] [--root PROJECT_DIR]
 
-KIND is arduino, platformio, esp-idf, zephyr or single-file. OUT is a new or empty folder or, with the
-ending .zip, an archive; without it the package is written anew below build/packages. Manifests and
-examples come from ports/KIND, where @VERSION@ in a file that ends in .in becomes the version of
+KIND is arduino, platformio, esp-idf, zephyr or single-file. OUT is a new or empty folder or, with
+the ending .zip, an archive; without it the package is written anew below build/packages. Manifests
+and examples come from ports/KIND, where @VERSION@ in a file that ends in .in becomes the version of
 pel/version.h. The same project always gives the same bytes.
 """
 import argparse

@@ -1,5 +1,6 @@
 /*
- * Runs a program for the ATmega2560 at 16 MHz in simavr: its UART 0 comes out on standard output, and the last line says
+ * Runs a program for the ATmega2560 at 16 MHz in simavr: its UART 0 comes out on standard output,
+ * and the last line says
  *
  *     RAM: data D + bss B + stack S = T of R bytes
  *
