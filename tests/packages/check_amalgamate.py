@@ -107,13 +107,18 @@ MODULE = """#include "pel.h"
 #include "row/row.h"
 #include "row/row_wide.h"
 typedef int (*adder)(int);
+typedef struct tools {
+    int adder;
+    int (*add)(int);
+} tools;
 static int (*const adders[])(int) = {pel_row_sum, pel_row_scale};
 static int add(int a) { return adders[0](a); }
 int pel_answer(int limit)
 {
     const pair p = {.step = 1, .lanes = WIDE / WIDE, .add = add};
     const adder scale = adders[1];
-    return scale(p.add(limit)) + p.step - p.lanes;
+    const tools own = {.adder = 1, .add = scale};
+    return own.add(p.add(limit)) + p.step - own.adder;
 }
 """
 
