@@ -5,12 +5,14 @@ set(PEL_INCLUDE_DIR ${PEL_LIB_DIR}/include)
 set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/status.c
     ${PEL_LIB_DIR}/src/fixed.c
+    ${PEL_LIB_DIR}/src/overlap.c
     ${PEL_LIB_DIR}/src/row/row_c.c
     ${PEL_LIB_DIR}/src/row/row_filter_c.c
     ${PEL_LIB_DIR}/src/row/row_point_c.c
     ${PEL_LIB_DIR}/src/row/row_feature_c.c
     ${PEL_LIB_DIR}/src/color.c
     ${PEL_LIB_DIR}/src/image.c
+    ${PEL_LIB_DIR}/src/image_read.c
     ${PEL_LIB_DIR}/src/frames.c
     ${PEL_LIB_DIR}/src/classify.c
     ${PEL_LIB_DIR}/src/blobs.c

@@ -358,6 +358,7 @@ static int read_text(input *in, classes *list)
         pel_boxes_set(&list->boxes, i, &list->entry[i].box);
     }
     list->classifier.boxes = &list->boxes;
+    list->classifier.reader = pel_crow_read_yuv;
     list->classifier.range = list->range;
     return 0;
 }

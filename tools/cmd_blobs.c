@@ -83,6 +83,7 @@ struct job {
     const char *wanted[NAMES_MAX]; /* --class */
     unsigned wanted_count;
     pel_blob_filter filter;
+    pel_blob_shape shape;
     uint8_t connectivity;
     uint16_t merge_density_q15;
     uint16_t merge_margin;
@@ -178,7 +179,7 @@ static int read_option(int option, int argc, char **argv, struct job *job)
     case 'a':
         return read_area(job);
     case 'd':
-        return read_q15("--min-density", &job->filter.density_min_q15);
+        return read_q15("--min-density", &job->shape.density_min_q15);
     case 'n':
         return read_wanted(job);
     case 'r':
@@ -426,6 +427,9 @@ static int find(struct job *job, const char *path, const pel_cview *view, pel_bl
         config.work = work;
         config.work_bytes = work_bytes;
         config.filter = &job->filter;
+        config.accept = pel_blob_shape_passes;
+        config.limits = &job->shape;
+        config.reader = pel_crow_read_yuv;
         config.on_blob = keep;
         config.user = job;
         status = pel_blobs_frame(&blobs, &config, &job->list.classifier, view, labels, &count);

@@ -45,6 +45,7 @@ void scene_classes(classes *list)
         (void)pel_boxes_set(&list->boxes, i, &entry->box);
     }
     list->classifier.boxes = &list->boxes;
+    list->classifier.reader = pel_crow_read_yuv;
     list->classifier.range = PEL_RANGE_FULL;
 }
 

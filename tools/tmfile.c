@@ -143,6 +143,7 @@ int tmfile_read(input *in, classes *list)
     }
     lut.cell = list->cells;
     list->classifier.lut = lut;
+    list->classifier.reader = pel_crow_read_yuv;
     for (i = 0; i < list->count; i++) {
         name_class(&list->entry[i], i);
     }

@@ -73,53 +73,41 @@ static int within(uint32_t value, uint32_t min, uint32_t max)
     return value >= min && (max == 0 || value <= max);
 }
 
-static int aspect_passes(const pel_blob *blob, const pel_blob_filter *f)
+/* The quotient need not be exact: whole numbers compare with its floor or its ceiling as with
+ * itself. */
+static int aspect_passes(uint32_t width, uint32_t height, const pel_blob_filter *f)
 {
-    const uint64_t width_q16 = (uint64_t)(blob->x1 - blob->x0) << 16;
-    const uint32_t height = (uint32_t)(blob->y1 - blob->y0);
+    const uint32_t width_q16 = width << 16, divisor = height > 0 ? height : 1;
 
-    return width_q16 >= (uint64_t)f->aspect_min_q16 * height &&
-           (f->aspect_max_q16 == 0 || width_q16 <= (uint64_t)f->aspect_max_q16 * height);
+    return width_q16 / divisor >= f->aspect_min_q16 &&
+           within(width_q16 / divisor + (width_q16 % divisor != 0), 0, f->aspect_max_q16);
 }
 
+/* As above: edges are whole numbers. */
 static int roi_passes(const pel_blob *blob, const pel_blob_filter *f)
 {
-    const uint64_t area = blob->area;
+    const uint32_t area = blob->area > 0 ? blob->area : 1;
+    const uint32_t x = blob->sum_x / area, y = blob->sum_y / area;
 
-    if ((f->roi_x0 | f->roi_x1 | f->roi_y0 | f->roi_y1) == 0) {
-        return 1;
-    }
-    return blob->sum_x >= area * f->roi_x0 && blob->sum_x < area * f->roi_x1 &&
-           blob->sum_y >= area * f->roi_y0 && blob->sum_y < area * f->roi_y1;
-}
-
-static int density_passes(const pel_blob *blob, const pel_blob_filter *f)
-{
-    return (f->density_min_q15 | f->density_max_q15) == 0 ||
-           within(pel_blob_density_q15(blob), f->density_min_q15, f->density_max_q15);
-}
-
-static int elongation_passes(const pel_blob *blob, const pel_blob_filter *f)
-{
-    return (f->elongation_min_q15 | f->elongation_max_q15) == 0 ||
-           within(pel_blob_elongation_q15(blob), f->elongation_min_q15, f->elongation_max_q15);
+    return (f->roi_x0 | f->roi_x1 | f->roi_y0 | f->roi_y1) == 0 ||
+           (x >= f->roi_x0 && x < f->roi_x1 && y >= f->roi_y0 && y < f->roi_y1);
 }
 
 int pel_blob_passes(const pel_blob *blob, const pel_blob_filter *f)
 {
-    if (!blob) {
-        return 0;
+    uint32_t width, height;
+
+    if (!blob || !f) {
+        return blob != NULL;
     }
-    if (!f) {
-        return 1;
-    }
+    width = (uint32_t)(blob->x1 - blob->x0);
+    height = (uint32_t)(blob->y1 - blob->y0);
     return within(blob->area, f->area_min, f->area_max) &&
-           within((uint32_t)(blob->x1 - blob->x0), f->width_min, f->width_max) &&
-           within((uint32_t)(blob->y1 - blob->y0), f->height_min, f->height_max) &&
+           within(width, f->width_min, f->width_max) &&
+           within(height, f->height_min, f->height_max) &&
            (f->class_mask == 0 ||
             (blob->class_index < 32 && f->class_mask >> blob->class_index & 1)) &&
-           aspect_passes(blob, f) && roi_passes(blob, f) && density_passes(blob, f) &&
-           elongation_passes(blob, f);
+           aspect_passes(width, height, f) && roi_passes(blob, f);
 }
 
 /* ---- Merging ------------------------------------------------------------------------------- */

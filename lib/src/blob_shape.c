@@ -148,6 +148,24 @@ uint16_t pel_blob_density_q15(const pel_blob *blob)
     return box == 0 ? 0 : limit_q15(fraction(blob->area, box, 15));
 }
 
+static int within(uint16_t value, uint16_t min, uint16_t max)
+{
+    return value >= min && (max == 0 || value <= max);
+}
+
+int pel_blob_shape_passes(const void *limits, const pel_blob *blob)
+{
+    const pel_blob_shape *const shape = limits;
+
+    if (!blob || !shape) {
+        return blob != NULL;
+    }
+    return within(pel_blob_density_q15(blob), shape->density_min_q15, shape->density_max_q15) &&
+           ((shape->elongation_min_q15 | shape->elongation_max_q15) == 0 ||
+            within(pel_blob_elongation_q15(blob), shape->elongation_min_q15,
+                   shape->elongation_max_q15));
+}
+
 uint16_t pel_blob_compactness_q15(const pel_blob *blob)
 {
     const uint64_t square = blob ? (uint64_t)blob->perimeter * blob->perimeter : 0;

@@ -214,14 +214,15 @@ static inline void add_moments(struct pel_blob_moments *m, uint32_t n, uint32_t 
     m->yy += (uint64_t)n * (y * y);
 }
 
-static void add_color(struct pel_blob_color *color, const pel_crow *pixels, pel_run run)
+static void add_color(const pel_blobs *b, size_t id, const pel_crow *pixels, pel_run run)
 {
-    enum { CHUNK = 32 };
+    enum { CHUNK = 16 };
+    struct pel_blob_color *const color = &b->colors[id];
     uint8_t y[CHUNK], u[CHUNK], v[CHUNK];
 
     for (uint16_t x = run.x0; x < run.x1; x = (uint16_t)(x + CHUNK)) {
         const uint16_t n = smaller(CHUNK, (uint16_t)(run.x1 - x));
-        (void)pel_crow_read_yuv(pixels, x, n, pixels->range, y, u, v); /* checked at the door */
+        (void)b->config.reader(pixels, x, n, pixels->range, y, u, v); /* checked at the door */
         color->y += pel_row_sum(y, n);
         color->u += pel_row_sum(u, n);
         color->v += pel_row_sum(v, n);
@@ -240,7 +241,7 @@ static inline void add_run(pel_blobs *b, slot *slots, struct pel_blob_moments *m
         add_moments(&moments[id], n, s, sum_x, y);
     }
     if (b->colors) {
-        add_color(&b->colors[id], pixels, run);
+        add_color(b, id, pixels, run);
     }
 }
 
@@ -354,7 +355,8 @@ static void report(pel_blobs *b, uint16_t id)
 {
     const pel_blob blob = describe(b, id);
 
-    if (!pel_blob_passes(&blob, b->config.filter)) {
+    if (!pel_blob_passes(&blob, b->config.filter) ||
+        (b->config.accept && !b->config.accept(b->config.limits, &blob))) {
         b->counts.filtered++;
         b->counts.filtered_px += blob.area;
         return;
@@ -435,7 +437,9 @@ static void open_late(pel_blobs *b, size_t late, const uint8_t *labels, const pe
 
 static pel_status check_pixels(const pel_blobs *b, const pel_crow *pixels)
 {
-    const pel_status status = pel_crow_check(pixels);
+    uint8_t y, u, v;
+    const pel_status status =
+        pixels ? b->config.reader(pixels, 0, 0, pixels->range, &y, &u, &v) : PEL_ERR_ARG;
 
     if (status != PEL_OK) {
         return status;

@@ -16,13 +16,6 @@ static uint32_t bytes_needed(const pel_blobs_config *c)
     return c->open_max * (uint32_t)PEL_BLOBS_SLOT_BYTES(c->measure) + 12 * ((uint32_t)c->width + 1);
 }
 
-/* Elongation comes from the moments. */
-static int filter_fits(const pel_blob_filter *f, unsigned measure)
-{
-    return !f || (f->elongation_min_q15 | f->elongation_max_q15) == 0 ||
-           (measure & PEL_MEASURE_MOMENTS) != 0;
-}
-
 /* The finder, the working memory and the results are three different places. */
 static int places_fit(const pel_blobs *b, const pel_blobs_config *c)
 {
@@ -41,7 +34,7 @@ static pel_status check_config(const pel_blobs *b, const pel_blobs_config *c)
     if (!c->work || !pel_i_aligned8(c->work) || (!c->results && c->results_max > 0) ||
         (c->connectivity != 0 && c->connectivity != 4 && c->connectivity != 8) ||
         c->measure > PEL_MEASURE_ALL || c->open_max == 0 || c->open_max > PEL_BLOBS_OPEN_LIMIT ||
-        !filter_fits(c->filter, c->measure)) {
+        ((c->measure & PEL_MEASURE_COLOR) != 0 && !c->reader)) {
         return PEL_ERR_ARG;
     }
     if (pixels == 0 || c->width > PEL_SIDE_MAX || c->height > PEL_SIDE_MAX ||
@@ -132,6 +125,9 @@ pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
     }
     row = pel_cview_row(view, 0); /* what this row is refused for, all are */
     status = pel_i_classify_check(classifier, &row, labels);
+    if (status == PEL_OK && (config->measure & PEL_MEASURE_COLOR) != 0 && config->reader) {
+        status = config->reader(&row, 0, 0, classifier->range, labels, labels, labels);
+    }
     if (status != PEL_OK) {
         return status;
     }

@@ -7,6 +7,6 @@
 
 /* What pel_classify_row would answer, without doing it. */
 pel_status pel_i_classify_check(const pel_classifier *classifier, const pel_crow *row,
-                                const uint8_t *labels);
+                                uint8_t *labels);
 
 #endif

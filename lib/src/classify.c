@@ -75,22 +75,28 @@ static void classify_yuv(const pel_classifier *classifier, const uint8_t *y, con
     }
 }
 
-enum { CHUNK = 32 }; /* pixels read at a time: 96 bytes of stack here, 96 in the reader */
+enum { CHUNK = 16 }; /* pixels read at a time: 48 bytes of stack here, 48 in the reader */
 
-/* Any format, through the reader. */
+/* Whatever the reader reads. */
 static void classify_in_chunks(const pel_classifier *classifier, const pel_crow *row,
                                uint16_t width, uint8_t *labels)
 {
     for (uint16_t x = 0; x < width; x = (uint16_t)(x + CHUNK)) {
         uint8_t y[CHUNK], u[CHUNK], v[CHUNK];
         const uint16_t n = (uint16_t)(width - x < CHUNK ? width - x : CHUNK);
-        (void)pel_crow_read_yuv(row, x, n, classifier->range, y, u, v); /* checked by the caller */
+        (void)classifier->reader(row, x, n, classifier->range, y, u, v); /* checked before */
         classify_yuv(classifier, y, u, v, n, labels + x);
     }
 }
 
+/* Boxes need no reader where the row is YCbCr. */
+static int works_in_place(const pel_classifier *classifier, const pel_crow *row)
+{
+    return classifier->boxes && pel_i_format(row->format)->layout == PEL_LAYOUT_PAIRS;
+}
+
 pel_status pel_i_classify_check(const pel_classifier *classifier, const pel_crow *row,
-                                const uint8_t *labels)
+                                uint8_t *labels)
 {
     pel_status status = classifier && labels ? pel_crow_check(row) : PEL_ERR_ARG;
 
@@ -103,26 +109,27 @@ pel_status pel_i_classify_check(const pel_classifier *classifier, const pel_crow
     if (pel_i_crow_overlaps(row, labels, pel_color_width(row->format, row->width))) {
         return PEL_ERR_ARG;
     }
-    return pel_i_format(row->format)->layout == PEL_LAYOUT_PAIRS && row->range != classifier->range
-               ? PEL_ERR_FORMAT
-               : PEL_OK;
+    if (works_in_place(classifier, row)) {
+        return row->range == classifier->range ? PEL_OK : PEL_ERR_FORMAT;
+    }
+    return classifier->reader
+               ? classifier->reader(row, 0, 0, classifier->range, labels, labels, labels)
+               : PEL_ERR_FORMAT;
 }
 
 pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *row, uint8_t *labels)
 {
     const pel_status status = pel_i_classify_check(classifier, row, labels);
-    const pel_format_info *info;
     uint16_t width;
 
     if (status != PEL_OK) {
         return status;
     }
-    info = pel_i_format(row->format);
     width = pel_color_width(row->format, row->width);
-    if (info->layout == PEL_LAYOUT_PAIRS && classifier->boxes) {
+    if (works_in_place(classifier, row)) {
         const pel_row_boxes boxes = {classifier->boxes->y, classifier->boxes->u,
                                      classifier->boxes->v};
-        const pel_row_pairs pairs = pel_i_pairs(info, row);
+        const pel_row_pairs pairs = pel_i_pairs(pel_i_format(row->format), row);
         pel_row_classify_pairs(&boxes, &pairs, width, labels);
     } else {
         classify_in_chunks(classifier, row, width, labels);

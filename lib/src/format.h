@@ -1,6 +1,6 @@
 /*
  * What the library knows about pixel formats: one line of a table each, and the two ways to read a
- * row. Private to image.c, which holds the table, and to classify.c, which reads rows.
+ * row. Private to image.c, which holds the table, to image_read.c and to classify.c.
  */
 #ifndef PEL_FORMAT_H
 #define PEL_FORMAT_H
@@ -17,17 +17,15 @@ enum pel_layout {
 };
 
 typedef struct pel_format_info {
-    char name[12];
-    uint8_t layout;
-    uint8_t pair_bytes; /* bytes of two pixels in plane 0 */
-    uint8_t planes;
-    uint8_t x_group,
-        y_group;   /* columns and rows that share something: sizes and crops keep to it */
-    uint8_t order; /* RGB24: offset of R; RGB565: offset of the low byte; Bayer: place of R */
-    struct {       /* pairs: where Y, U and V start in the row, and their steps */
-        uint8_t y_offset, y_step;
-        uint8_t u_plane, u_offset, v_plane, v_offset, c_step;
-    } pairs;
+    unsigned layout : 2;
+    unsigned pair_bytes : 3; /* bytes of two pixels in plane 0 */
+    unsigned planes : 2;
+    unsigned x_group : 2, y_group : 2; /* columns and rows that share something: sizes and crops
+                                          keep to it */
+    unsigned order : 2; /* RGB24: offset of R; RGB565: of the low byte; Bayer: place of R */
+    /* Pairs: where Y, U and V start in the row, and their steps. */
+    unsigned y_offset : 1, y_step : 2;
+    unsigned u_plane : 2, u_offset : 2, v_plane : 2, v_offset : 2, c_step : 3;
 } pel_format_info;
 
 /* The line of the table, NULL for a value that is no format. */
@@ -35,10 +33,6 @@ const pel_format_info *pel_i_format(pel_format format);
 
 /* A row of layout PAIRS as the kernels want it. */
 pel_row_pairs pel_i_pairs(const pel_format_info *info, const pel_crow *row);
-
-/* Pixels x .. x+count-1 of a row of any other layout as R G B. */
-void pel_i_read_rgb(const pel_format_info *info, const pel_crow *row, uint16_t x, uint16_t count,
-                    uint8_t *rgb);
 
 /* Whether the bytes of a row, or of a view and what lies between its rows, overlap some memory. */
 int pel_i_crow_overlaps(const pel_crow *row, const void *memory, size_t bytes);

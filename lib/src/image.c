@@ -3,26 +3,32 @@
 
 /*
  * The formats, in the order of the enum. No pointers in here: the table stays in flash.
- *    name, layout, bytes of a pair, planes, groups, order,
- *    {Y offset and step, U and V plane and offset, their step}
+ *    layout, bytes of a pair, planes, groups, order,
+ *    Y offset and step, U and V plane and offset, their step
  */
 static const pel_format_info formats[PEL_FORMAT_COUNT] = {
-    {"GRAY8", PEL_LAYOUT_PAIRS, 2, 1, 1, 1, 0, {0, 1, 0, 0, 0, 0, 0}},
-    {"YUYV", PEL_LAYOUT_PAIRS, 4, 1, 2, 1, 0, {0, 2, 0, 1, 0, 3, 4}},
-    {"UYVY", PEL_LAYOUT_PAIRS, 4, 1, 2, 1, 0, {1, 2, 0, 0, 0, 2, 4}},
-    {"YVYU", PEL_LAYOUT_PAIRS, 4, 1, 2, 1, 0, {0, 2, 0, 3, 0, 1, 4}},
-    {"VYUY", PEL_LAYOUT_PAIRS, 4, 1, 2, 1, 0, {1, 2, 0, 2, 0, 0, 4}},
-    {"NV12", PEL_LAYOUT_PAIRS, 2, 2, 2, 2, 0, {0, 1, 1, 0, 1, 1, 2}},
-    {"I420", PEL_LAYOUT_PAIRS, 2, 3, 2, 2, 0, {0, 1, 1, 0, 2, 0, 1}},
-    {"RGB565_LE", PEL_LAYOUT_RGB565, 4, 1, 1, 1, 0, {0}},
-    {"RGB565_BE", PEL_LAYOUT_RGB565, 4, 1, 1, 1, 1, {0}},
-    {"RGB888", PEL_LAYOUT_RGB24, 6, 1, 1, 1, 0, {0}},
-    {"BGR888", PEL_LAYOUT_RGB24, 6, 1, 1, 1, 2, {0}},
-    {"BAYER8_RGGB", PEL_LAYOUT_BAYER, 2, 1, 2, 2, 0, {0}},
-    {"BAYER8_GRBG", PEL_LAYOUT_BAYER, 2, 1, 2, 2, 1, {0}},
-    {"BAYER8_GBRG", PEL_LAYOUT_BAYER, 2, 1, 2, 2, 2, {0}},
-    {"BAYER8_BGGR", PEL_LAYOUT_BAYER, 2, 1, 2, 2, 3, {0}},
+    {PEL_LAYOUT_PAIRS, 2, 1, 1, 1, 0, 0, 1, 0, 0, 0, 0, 0},  /* GRAY8 */
+    {PEL_LAYOUT_PAIRS, 4, 1, 2, 1, 0, 0, 2, 0, 1, 0, 3, 4},  /* YUYV */
+    {PEL_LAYOUT_PAIRS, 4, 1, 2, 1, 0, 1, 2, 0, 0, 0, 2, 4},  /* UYVY */
+    {PEL_LAYOUT_PAIRS, 4, 1, 2, 1, 0, 0, 2, 0, 3, 0, 1, 4},  /* YVYU */
+    {PEL_LAYOUT_PAIRS, 4, 1, 2, 1, 0, 1, 2, 0, 2, 0, 0, 4},  /* VYUY */
+    {PEL_LAYOUT_PAIRS, 2, 2, 2, 2, 0, 0, 1, 1, 0, 1, 1, 2},  /* NV12 */
+    {PEL_LAYOUT_PAIRS, 2, 3, 2, 2, 0, 0, 1, 1, 0, 2, 0, 1},  /* I420 */
+    {PEL_LAYOUT_RGB565, 4, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0}, /* RGB565_LE */
+    {PEL_LAYOUT_RGB565, 4, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0}, /* RGB565_BE */
+    {PEL_LAYOUT_RGB24, 6, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0},  /* RGB888 */
+    {PEL_LAYOUT_RGB24, 6, 1, 1, 1, 2, 0, 0, 0, 0, 0, 0, 0},  /* BGR888 */
+    {PEL_LAYOUT_BAYER, 2, 1, 2, 2, 0, 0, 0, 0, 0, 0, 0, 0},  /* BAYER8_RGGB */
+    {PEL_LAYOUT_BAYER, 2, 1, 2, 2, 1, 0, 0, 0, 0, 0, 0, 0},  /* BAYER8_GRBG */
+    {PEL_LAYOUT_BAYER, 2, 1, 2, 2, 2, 0, 0, 0, 0, 0, 0, 0},  /* BAYER8_GBRG */
+    {PEL_LAYOUT_BAYER, 2, 1, 2, 2, 3, 0, 0, 0, 0, 0, 0, 0},  /* BAYER8_BGGR */
 };
+
+/* Apart from the rest, so that only programs that print names carry them. */
+static const char names[PEL_FORMAT_COUNT][12] = {
+    "GRAY8",  "YUYV",        "UYVY",        "YVYU",        "VYUY",
+    "NV12",   "I420",        "RGB565_LE",   "RGB565_BE",   "RGB888",
+    "BGR888", "BAYER8_RGGB", "BAYER8_GRBG", "BAYER8_GBRG", "BAYER8_BGGR"};
 
 /* Gray has this U and V everywhere. */
 static const uint8_t neutral_chroma = 128;
@@ -34,8 +40,7 @@ const pel_format_info *pel_i_format(pel_format format)
 
 const char *pel_format_name(pel_format format)
 {
-    const pel_format_info *info = pel_i_format(format);
-    return info ? info->name : NULL;
+    return (unsigned)format < PEL_FORMAT_COUNT ? names[(unsigned)format] : NULL;
 }
 
 /* ---- Sizes --------------------------------------------------------------------------------- */
@@ -318,32 +323,17 @@ pel_row_pairs pel_i_pairs(const pel_format_info *info, const pel_crow *row)
 {
     pel_row_pairs pairs;
 
-    pairs.y = row->plane[0] + info->pairs.y_offset;
-    pairs.y_step = info->pairs.y_step;
-    pairs.c_step = info->pairs.c_step;
+    pairs.y = row->plane[0] + info->y_offset;
+    pairs.y_step = info->y_step;
+    pairs.c_step = info->c_step;
     if (pairs.c_step == 0) {
         pairs.u = &neutral_chroma;
         pairs.v = &neutral_chroma;
     } else {
-        pairs.u = row->plane[info->pairs.u_plane] + info->pairs.u_offset;
-        pairs.v = row->plane[info->pairs.v_plane] + info->pairs.v_offset;
+        pairs.u = row->plane[info->u_plane] + info->u_offset;
+        pairs.v = row->plane[info->v_plane] + info->v_offset;
     }
     return pairs;
-}
-
-void pel_i_read_rgb(const pel_format_info *info, const pel_crow *row, uint16_t x, uint16_t count,
-                    uint8_t *rgb)
-{
-    const uint8_t *src = row->plane[0];
-
-    if (info->layout == PEL_LAYOUT_RGB24) {
-        pel_row_read_rgb24(src + 3 * (size_t)x, count, info->order, rgb);
-    } else if (info->layout == PEL_LAYOUT_RGB565) {
-        pel_row_read_rgb565(src + 2 * (size_t)x, count, info->order, rgb);
-    } else {
-        pel_row_read_bayer(src + 2 * (size_t)x, row->plane[1] + 2 * (size_t)x, count, info->order,
-                           rgb);
-    }
 }
 
 int pel_i_crow_overlaps(const pel_crow *row, const void *memory, size_t bytes)
@@ -374,93 +364,4 @@ int pel_i_view_overlaps(const pel_cview *view, const void *memory, size_t bytes)
         found |= pel_i_overlap(lowest, size, memory, bytes);
     }
     return found;
-}
-
-/* What both public readers refuse. */
-static pel_status check_read(const pel_crow *row, uint16_t x, uint16_t count)
-{
-    const pel_status status = pel_crow_check(row);
-
-    if (status != PEL_OK) {
-        return status;
-    }
-    return (uint32_t)x + count <= pel_color_width(row->format, row->width) ? PEL_OK : PEL_ERR_RANGE;
-}
-
-enum { CHUNK = 32 }; /* pixels converted at a time: 96 bytes of stack */
-
-/* Any other layout to Y, U and V in pieces. */
-static void convert_rgb(const pel_format_info *info, const pel_crow *row, uint16_t x,
-                        uint16_t count, int limited, uint8_t *y, uint8_t *u, uint8_t *v)
-{
-    uint8_t rgb[3 * CHUNK];
-
-    for (uint16_t done = 0; done < count; done = (uint16_t)(done + CHUNK)) {
-        const uint16_t n = (uint16_t)(count - done < CHUNK ? count - done : CHUNK);
-        pel_i_read_rgb(info, row, (uint16_t)(x + done), n, rgb);
-        pel_row_rgb_to_ycbcr(rgb, n, limited, y + done, u + done, v + done, 1);
-    }
-}
-
-pel_status pel_crow_read_yuv(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
-                             uint8_t *y, uint8_t *u, uint8_t *v)
-{
-    const pel_format_info *info;
-    const pel_status status = y && u && v && (unsigned)range <= PEL_RANGE_LIMITED
-                                  ? check_read(row, x, count)
-                                  : PEL_ERR_ARG;
-    if (status != PEL_OK) {
-        return status;
-    }
-    if (pel_i_crow_overlaps(row, y, count) || pel_i_crow_overlaps(row, u, count) ||
-        pel_i_crow_overlaps(row, v, count) || pel_i_overlap(y, count, u, count) ||
-        pel_i_overlap(y, count, v, count) || pel_i_overlap(u, count, v, count)) {
-        return PEL_ERR_ARG;
-    }
-    info = pel_i_format(row->format);
-    if (info->layout == PEL_LAYOUT_PAIRS) {
-        const pel_row_pairs pairs = pel_i_pairs(info, row);
-        if (row->range != range) {
-            return PEL_ERR_FORMAT;
-        }
-        pel_row_read_pairs(&pairs, x, count, y, u, v);
-        return PEL_OK;
-    }
-    convert_rgb(info, row, x, count, range == PEL_RANGE_LIMITED, y, u, v);
-    return PEL_OK;
-}
-
-/* Pairs to R G B in pieces. */
-static void convert_pairs(const pel_row_pairs *pairs, uint16_t x, uint16_t count, int limited,
-                          uint8_t *rgb)
-{
-    uint8_t yuv[3 * CHUNK];
-
-    for (uint16_t done = 0; done < count; done = (uint16_t)(done + CHUNK)) {
-        const uint16_t n = (uint16_t)(count - done < CHUNK ? count - done : CHUNK);
-        pel_row_read_pairs(pairs, (uint16_t)(x + done), n, yuv, yuv + CHUNK, yuv + 2 * CHUNK);
-        pel_row_ycbcr_to_rgb(yuv, yuv + CHUNK, yuv + 2 * CHUNK, 1, n, limited,
-                             rgb + 3 * (size_t)done);
-    }
-}
-
-pel_status pel_crow_read_rgb(const pel_crow *row, uint16_t x, uint16_t count, uint8_t *rgb)
-{
-    const pel_format_info *info;
-    const pel_status status = rgb ? check_read(row, x, count) : PEL_ERR_ARG;
-
-    if (status != PEL_OK) {
-        return status;
-    }
-    if (pel_i_crow_overlaps(row, rgb, 3 * (size_t)count)) {
-        return PEL_ERR_ARG;
-    }
-    info = pel_i_format(row->format);
-    if (info->layout == PEL_LAYOUT_PAIRS) {
-        const pel_row_pairs pairs = pel_i_pairs(info, row);
-        convert_pairs(&pairs, x, count, row->range == PEL_RANGE_LIMITED, rgb);
-    } else {
-        pel_i_read_rgb(info, row, x, count, rgb);
-    }
-    return PEL_OK;
 }

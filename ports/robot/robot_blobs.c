@@ -81,6 +81,7 @@ static pel_status begin_frame(struct robot *r)
     config.work = r->work;
     config.work_bytes = sizeof r->work;
     config.filter = &r->filter;
+    config.reader = pel_crow_read_yuv;
     config.on_blob = on_blob;
     config.user = r;
     r->largest = none;
@@ -154,6 +155,7 @@ static int set_up(struct robot *r)
     }
     r->classifier.boxes = &r->boxes;
     r->classifier.range = PEL_RANGE_FULL;
+    r->classifier.reader = pel_crow_read_yuv;
     r->filter.area_min = ROBOT_AREA_MIN;
     return faults;
 }

@@ -78,6 +78,7 @@ static pel_status take_line(const port_line_info *line)
     pel_status status = line->y == 0 ? begin_frame() : PEL_OK;
     classifier.boxes = &boxes;
     classifier.range = CAMERA_RANGE;
+    classifier.reader = pel_crow_read_yuv; /* of any camera; not needed for YCbCr */
     if (status == PEL_OK) {
         status = pel_classify_row(&classifier, &line->row, labels);
     }

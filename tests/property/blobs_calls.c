@@ -32,6 +32,7 @@ static pel_blobs_config good_config(unsigned measure)
     config.work = guarded_take(&work_memory, config.work_bytes, 0, 0x33);
     config.results = results;
     config.results_max = RESULTS;
+    config.reader = pel_crow_read_ycbcr;
     return config;
 }
 
@@ -91,6 +92,10 @@ static void begin_choices(void)
         config = good_config(PEL_MEASURE_ALL);
         config.measure = (uint8_t)value;
         expect_begin(config, value <= PEL_MEASURE_ALL ? PEL_OK : PEL_ERR_ARG, "measure");
+        config = good_config(PEL_MEASURE_ALL);
+        config.measure = (uint8_t)value;
+        config.reader = NULL;
+        expect_begin(config, value < PEL_MEASURE_COLOR ? PEL_OK : PEL_ERR_ARG, "no reader");
     }
 }
 
@@ -329,6 +334,8 @@ static void pixels_for_colour(void)
     bad.plane[1] = gray;
     bad.format = PEL_BAYER8_RGGB;
     check_that(pel_blobs_row(&blobs, 0, frame[0], &bad) == PEL_ERR_FORMAT, "Bayer");
+    bad.format = PEL_BGR888; /* not for this reader */
+    check_that(pel_blobs_row(&blobs, 0, frame[0], &bad) == PEL_ERR_FORMAT, "BGR888");
     bad = row;
     bad.plane[0] = NULL;
     check_that(pel_blobs_row(&blobs, 0, frame[0], &bad) == PEL_ERR_ARG, "plane NULL");
@@ -454,6 +461,10 @@ static void frame_sizes_and_formats(void)
     good_frame_call(&call);
     call.config.work_bytes--;
     expect_frame(&call, PEL_ERR_SPACE, "work too small");
+    good_frame_call(&call);
+    call.config.measure = PEL_MEASURE_COLOR;
+    call.config.reader = pel_crow_read_bayer;
+    expect_frame(&call, PEL_ERR_FORMAT, "the colour reader of another format");
     good_frame_call(&call);
     call.view.plane[0] = NULL;
     expect_frame(&call, PEL_ERR_ARG, "plane NULL");

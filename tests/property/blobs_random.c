@@ -110,7 +110,7 @@ static void set_region(rng *random, const ref_map *map, pel_blob_filter *filter)
 
 /* Sets one kind of bound; `like` is a blob of the map, so that bounds are met exactly, too. */
 static void set_bound(unsigned kind, rng *random, const ref_map *map, const pel_blob *like,
-                      pel_blob_filter *filter)
+                      pel_blob_filter *filter, pel_blob_shape *shape)
 {
     const uint32_t width = (uint32_t)(like->x1 - like->x0);
     const uint32_t height = (uint32_t)(like->y1 - like->y0);
@@ -141,16 +141,16 @@ static void set_bound(unsigned kind, rng *random, const ref_map *map, const pel_
         filter->aspect_max_q16 = width * 65536 / height + near - 1;
         break;
     case 8:
-        filter->density_min_q15 = (uint16_t)(ref_density_q15(like) + near - 1);
+        shape->density_min_q15 = (uint16_t)(ref_density_q15(like) + near - 1);
         break;
     case 9:
-        filter->density_max_q15 = (uint16_t)(ref_density_q15(like) + near - 1);
+        shape->density_max_q15 = (uint16_t)(ref_density_q15(like) + near - 1);
         break;
     case 10:
-        filter->elongation_min_q15 = (uint16_t)rng_below(random, 32768);
+        shape->elongation_min_q15 = (uint16_t)rng_below(random, 32768);
         break;
     case 11:
-        filter->elongation_max_q15 = (uint16_t)rng_below(random, 32768);
+        shape->elongation_max_q15 = (uint16_t)rng_below(random, 32768);
         break;
     case 12:
         filter->class_mask = 1u + rng_below(random, 255);
@@ -172,6 +172,7 @@ static void filter_trial(unsigned kind, unsigned more, rng *random)
     setup trial;
     expectation expected;
     pel_blob_filter filter;
+    pel_blob_shape shape;
     uint32_t i;
     random_map(random, 1 + rng_below(random, 8), &map);
     trial = setup_safe(&map, random_connectivity(random));
@@ -180,17 +181,25 @@ static void filter_trial(unsigned kind, unsigned more, rng *random)
         return;
     }
     memset(&filter, 0, sizeof filter);
-    set_bound(kind, random, &map, &expected.blobs[rng_below(random, expected.count)], &filter);
+    memset(&shape, 0, sizeof shape);
+    set_bound(kind, random, &map, &expected.blobs[rng_below(random, expected.count)], &filter,
+              &shape);
     while (more-- > 0) {
         set_bound(rng_below(random, FILTER_KINDS), random, &map,
-                  &expected.blobs[rng_below(random, expected.count)], &filter);
+                  &expected.blobs[rng_below(random, expected.count)], &filter, &shape);
     }
     trial.filter = &filter;
+    trial.shape = &shape;
     verify(&trial, &expected);
     for (i = 0; i < expected.count; i++) {
-        const int passes = ref_passes(&expected.blobs[i], &filter);
-        check_that(passes < 0 || pel_blob_passes(&expected.blobs[i], &filter) == passes,
+        const pel_blob *blob = &expected.blobs[i];
+        const int passes = ref_passes(blob, &filter);
+        const int fits = ref_shape_passes(blob, &shape);
+        check_that(pel_blob_passes(blob, &filter) == passes,
                    "pel_blob_passes, filter kind %u: not %d %s", kind, passes, trial_text(&trial));
+        check_that(fits < 0 || pel_blob_shape_passes(&shape, blob) == fits,
+                   "pel_blob_shape_passes, filter kind %u: not %d %s", kind, fits,
+                   trial_text(&trial));
     }
     trial.open_max = (uint16_t)(1 + rng_below(random, map.width));
     trial.results_max = rng_below(random, 4);
@@ -357,11 +366,13 @@ static void compare_frame(const ref_map *map, const picture *pixels, const pel_b
     config.open_max = map->width;
     config.connectivity = (uint8_t)connectivity;
     config.measure = PEL_MEASURE_ALL;
+    config.reader = pel_crow_read_yuv;
     config.work = work;
     config.work_bytes = sizeof work;
     config.results = found;
     config.results_max = PIXELS_MAX;
     classifier.boxes = boxes;
+    classifier.reader = pel_crow_read_yuv;
     classifier.range = pixels->range;
     status = pel_cview_init(pixels->bytes, pixels->format, pixels->range, map->width, map->height,
                             0, &view);

@@ -112,6 +112,9 @@ static void configure(const setup *trial, pel_blobs_config *config)
     config->work_bytes = PEL_BLOBS_BYTES(trial->map.width, trial->open_max, trial->measure);
     config->work = guarded_take(&work_memory, config->work_bytes, 0, 0xA5);
     config->filter = trial->filter;
+    config->accept = trial->shape != NULL ? pel_blob_shape_passes : NULL;
+    config->limits = trial->shape;
+    config->reader = pel_crow_read_yuv;
     config->results = guarded_take(&results_memory, trial->results_max * sizeof(pel_blob), 0, 0x5A);
     config->results_max = trial->results_max;
     if (trial->results_max == 0) {
@@ -279,10 +282,11 @@ static void check_missing(const setup *trial, const expectation *expected)
     uint32_t i;
     for (i = 0; i < expected->count; i++) {
         const pel_blob *blob = &expected->blobs[i];
-        int passes = ref_passes(blob, trial->filter);
+        int passes = ref_shape_passes(blob, trial->shape);
         if (passes < 0) {
-            passes = pel_blob_passes(blob, trial->filter);
+            passes = pel_blob_shape_passes(trial->shape, blob);
         }
+        passes = passes && ref_passes(blob, trial->filter);
         check_that(passes || !got.matched[i], "should not pass: %s %s", blob_text(blob),
                    trial_text(trial));
         check_that(!passes || got.matched[i] || counts->lost_opens > 0, "missing: %s %s",

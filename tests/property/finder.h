@@ -25,6 +25,7 @@ typedef struct setup {
     uint16_t open_max;
     uint32_t results_max;
     const pel_blob_filter *filter; /* may be NULL */
+    const pel_blob_shape *shape;   /* may be NULL: no accept */
     const picture *pixels;         /* NULL without PEL_MEASURE_COLOR */
 } setup;
 

@@ -378,10 +378,10 @@ static int class_passes(const pel_blob *blob, uint32_t class_mask)
 }
 
 /* Elongation is allowed to be off by 4; nearer than that to a bound both answers are right. */
-static int elongation_passes(const pel_blob *blob, const pel_blob_filter *filter)
+static int elongation_passes(const pel_blob *blob, const pel_blob_shape *shape)
 {
-    const long double low = filter->elongation_min_q15;
-    const long double high = filter->elongation_max_q15;
+    const long double low = shape->elongation_min_q15;
+    const long double high = shape->elongation_max_q15;
     long double elongation;
     if (low == 0 && high == 0) {
         return 1;
@@ -400,15 +400,22 @@ int ref_passes(const pel_blob *blob, const pel_blob_filter *filter)
     if (filter == NULL) {
         return 1;
     }
-    if (!within(blob->area, 1, 1, filter->area_min, filter->area_max) ||
-        !within(width, 1, 1, filter->width_min, filter->width_max) ||
-        !within(height, 1, 1, filter->height_min, filter->height_max) ||
-        !within(width, height, 65536, filter->aspect_min_q16, filter->aspect_max_q16) ||
-        !within(ref_density_q15(blob), 1, 1, filter->density_min_q15, filter->density_max_q15) ||
-        !class_passes(blob, filter->class_mask) || !in_region(blob, filter)) {
+    return within(blob->area, 1, 1, filter->area_min, filter->area_max) &&
+           within(width, 1, 1, filter->width_min, filter->width_max) &&
+           within(height, 1, 1, filter->height_min, filter->height_max) &&
+           within(width, height, 65536, filter->aspect_min_q16, filter->aspect_max_q16) &&
+           class_passes(blob, filter->class_mask) && in_region(blob, filter);
+}
+
+int ref_shape_passes(const pel_blob *blob, const pel_blob_shape *shape)
+{
+    if (shape == NULL) {
+        return 1;
+    }
+    if (!within(ref_density_q15(blob), 1, 1, shape->density_min_q15, shape->density_max_q15)) {
         return 0;
     }
-    return elongation_passes(blob, filter);
+    return elongation_passes(blob, shape);
 }
 
 /* ---- Colour -------------------------------------------------------------------------------- */

@@ -38,8 +38,12 @@ int ref_compare_documented(const void *a, const void *b);
 /* The same, then by every other field: 0 only for equal blobs. */
 int ref_compare_all(const void *a, const void *b);
 
-/* 1 passes, 0 does not, -1 too near to an elongation bound for the stated error of elongation. */
+/* 1 passes, 0 does not; a NULL filter passes all. */
 int ref_passes(const pel_blob *blob, const pel_blob_filter *filter);
+
+/* The same for bounds of the shape; -1: too near to an elongation bound for the stated error of
+ * elongation. */
+int ref_shape_passes(const pel_blob *blob, const pel_blob_shape *shape);
 
 /* The shape functions from their definitions; the real ones unrounded. */
 int32_t ref_centroid_q16(uint32_t sum, uint32_t area);

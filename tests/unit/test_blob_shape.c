@@ -86,8 +86,6 @@ static void test_bounds_belong_to_the_interval(void)
     filter.height_max = 2;
     filter.aspect_min_q16 = 3 * 65536;
     filter.aspect_max_q16 = 3 * 65536;
-    filter.density_min_q15 = 32767;
-    filter.density_max_q15 = 32767;
     filter.class_mask = 8;
     TEST_ASSERT_EQUAL_INT(1, pel_blob_passes(&blob, &filter));
     filter.aspect_max_q16--;
@@ -113,15 +111,32 @@ static void test_the_region_of_interest_is_half_open(void)
     TEST_ASSERT_EQUAL_INT(0, pel_blob_passes(&blob, &filter));
 }
 
+static void test_density_bounds(void)
+{
+    const pel_blob full = bar_6_by_2();
+    pel_blob hollow = full;
+    pel_blob_shape shape = {.density_min_q15 = 32767, .density_max_q15 = 32767};
+    TEST_ASSERT_EQUAL_INT(1, pel_blob_shape_passes(&shape, &full));
+    hollow.area = 11; /* 11/12 = 30037.3 / 32768 */
+    TEST_ASSERT_EQUAL_INT(0, pel_blob_shape_passes(&shape, &hollow));
+    shape.density_min_q15 = 30037;
+    shape.density_max_q15 = 30037;
+    TEST_ASSERT_EQUAL_INT(1, pel_blob_shape_passes(&shape, &hollow));
+    TEST_ASSERT_EQUAL_INT(0, pel_blob_shape_passes(&shape, &full));
+}
+
 static void test_elongation_bounds(void)
 {
     const pel_blob blob = bar_6_by_2(); /* roundness sqrt((4-1)/(36-1)) = 0.2928: 9593 */
-    pel_blob_filter filter = {0};
-    filter.elongation_min_q15 = 23160; /* 32767 - 9593 = 23174 */
-    filter.elongation_max_q15 = 23190;
-    TEST_ASSERT_EQUAL_INT(1, pel_blob_passes(&blob, &filter));
-    filter.elongation_min_q15 = 23190;
-    TEST_ASSERT_EQUAL_INT(0, pel_blob_passes(&blob, &filter));
+    pel_blob_shape shape = {0};
+    shape.elongation_min_q15 = 23160; /* 32767 - 9593 = 23174 */
+    shape.elongation_max_q15 = 23190;
+    TEST_ASSERT_EQUAL_INT(1, pel_blob_shape_passes(&shape, &blob));
+    shape.elongation_min_q15 = 23190;
+    TEST_ASSERT_EQUAL_INT(0, pel_blob_shape_passes(&shape, &blob));
+    TEST_ASSERT_EQUAL_INT(1, pel_blob_shape_passes(NULL, &blob));
+    TEST_ASSERT_EQUAL_INT(0, pel_blob_shape_passes(&shape, NULL));
+    TEST_ASSERT_EQUAL_INT(0, pel_blob_shape_passes(NULL, NULL));
 }
 
 /* ---- Shape ----------------------------------------------------------------------------------- */
@@ -278,14 +293,10 @@ static void test_sorting(void)
     pel_blobs_sort(NULL, 3);
 }
 
-/* Without moments there is no axis: the answers are those of a disc, and a filter that asks for
- * more is refused. */
+/* Without moments there is no axis: the answers are those of a disc. */
 static void test_shapes_that_were_not_measured(void)
 {
-    static uint64_t words[PEL_BLOBS_WORDS(8, 8, PEL_MEASURE_ALL)];
-    const pel_blob_filter filter = {.elongation_min_q15 = 1};
-    pel_blobs_config settings = {.width = 8, .height = 8, .open_max = 8};
-    pel_blobs finder;
+    const pel_blob_shape shape = {.elongation_min_q15 = 1};
     pel_blob bar = {0};
 
     bar.area = 12;
@@ -296,13 +307,7 @@ static void test_shapes_that_were_not_measured(void)
     TEST_ASSERT_EQUAL_UINT16(0, pel_blob_elongation_q15(&bar));
     TEST_ASSERT_EQUAL_INT16(0, pel_blob_angle_turn16(&bar));
     TEST_ASSERT_EQUAL_UINT16(0, pel_blob_compactness_q15(&bar));
-
-    settings.work = words;
-    settings.work_bytes = sizeof words;
-    settings.filter = &filter;
-    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_blobs_begin(&finder, &settings));
-    settings.measure = PEL_MEASURE_MOMENTS;
-    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_blobs_begin(&finder, &settings));
+    TEST_ASSERT_EQUAL_INT(0, pel_blob_shape_passes(&shape, &bar));
 }
 
 static void test_nothing_is_known_of_no_blob(void)
@@ -325,6 +330,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_bounds_belong_to_the_interval);
     RUN_TEST(test_the_region_of_interest_is_half_open);
+    RUN_TEST(test_density_bounds);
     RUN_TEST(test_elongation_bounds);
     RUN_TEST(test_shape_of_a_bar);
     RUN_TEST(test_a_line_at_45_degrees);

@@ -349,6 +349,7 @@ static void test_a_filter_counts_what_it_stops(void)
                                   "......"
                                   "bb..bb"
                                   "bb..b.";
+    static const pel_blob_shape full_boxes = {.density_min_q15 = 32767};
     pel_blob_filter filter = {0};
     uint32_t count = 0;
     config.filter = &filter;
@@ -361,10 +362,12 @@ static void test_a_filter_counts_what_it_stops(void)
     TEST_ASSERT_EQUAL_INT(PEL_OK, find(picture, 6, 4, &count));
     TEST_ASSERT_EQUAL_UINT32(2, count);
     TEST_ASSERT_EQUAL_UINT32(4, blobs.counts.filtered_px);
-    filter.density_min_q15 = 32767; /* full boxes only */
+    config.accept = pel_blob_shape_passes;
+    config.limits = &full_boxes;
     TEST_ASSERT_EQUAL_INT(PEL_OK, find(picture, 6, 4, &count));
     TEST_ASSERT_EQUAL_UINT32(1, count);
     assert_box(0, 2, 2, 4, &found[0]);
+    TEST_ASSERT_EQUAL_UINT32(7, blobs.counts.filtered_px); /* a, aaa and the b with the gap */
 }
 
 /* ---- Runs ------------------------------------------------------------------------------------ */
@@ -403,6 +406,7 @@ static void test_a_frame_from_pixels_to_mean_colour(void)
     config.width = 4;
     config.height = 2;
     config.measure = PEL_MEASURE_ALL;
+    config.reader = pel_crow_read_ycbcr;
     classifier.boxes = &boxes;
     TEST_ASSERT_EQUAL_INT(PEL_OK, pel_boxes_set(&boxes, 2, &orange));
     TEST_ASSERT_EQUAL_INT(PEL_OK, pel_cview_init(yuyv, PEL_YUYV, PEL_RANGE_FULL, 4, 2, 0, &view));

@@ -28,7 +28,8 @@ static void forget_boxes(void)
 
 static pel_classifier classifier_of_boxes(void)
 {
-    const pel_classifier classifier = {&boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL};
+    const pel_classifier classifier = {
+        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
     return classifier;
 }
 
@@ -340,8 +341,11 @@ static void test_the_cell_of_a_colour_is_its_top_bits(void)
                                       {1, 8, 0}, {0, 0, 8}, {0, 0, 0}, {10, 0, 0}};
     for (unsigned i = 0; bits[i][0] != 10; i++) {
         const unsigned yb = bits[i][0], ub = bits[i][1], vb = bits[i][2];
-        const pel_classifier classifier = {
-            NULL, {cells, bits[i][0], bits[i][1], bits[i][2]}, PEL_RANGE_FULL, NULL};
+        const pel_classifier classifier = {NULL,
+                                           {cells, bits[i][0], bits[i][1], bits[i][2]},
+                                           PEL_RANGE_FULL,
+                                           NULL,
+                                           pel_crow_read_yuv};
         const unsigned size = 1u << (yb + ub + vb);
         TEST_ASSERT_EQUAL_UINT(size, pel_lut_bytes(yb, ub, vb));
         TEST_ASSERT_EQUAL_UINT(size, PEL_LUT_BYTES(yb, ub, vb));
@@ -359,7 +363,8 @@ static void test_the_cell_of_a_colour_is_its_top_bits(void)
 
 static void test_a_table_classifies_rows_of_every_format(void)
 {
-    const pel_classifier classifier = {NULL, {cells, 4, 3, 3}, PEL_RANGE_FULL, NULL};
+    const pel_classifier classifier = {
+        NULL, {cells, 4, 3, 3}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
     for (unsigned i = 0; i < sizeof cells; i++) {
         cells[i] = (uint8_t)(i * 37);
     }
@@ -372,7 +377,8 @@ static void test_a_table_classifies_rows_of_every_format(void)
 static void test_boxes_come_before_a_table(void)
 {
     static const pel_color_box anything = {0, 255, 0, 255, 0, 255};
-    const pel_classifier classifier = {&boxes, {cells, 0, 0, 0}, PEL_RANGE_FULL, NULL};
+    const pel_classifier classifier = {
+        &boxes, {cells, 0, 0, 0}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
     forget_boxes();
     pel_boxes_set(&boxes, 4, &anything);
     cells[0] = 99;
@@ -405,7 +411,8 @@ static void test_several_boxes_can_stand_for_one_colour(void)
 
 static void test_a_table_may_use_every_label(void)
 {
-    const pel_classifier classifier = {NULL, {cells, 8, 0, 0}, PEL_RANGE_FULL, map};
+    const pel_classifier classifier = {
+        NULL, {cells, 8, 0, 0}, PEL_RANGE_FULL, map, pel_crow_read_yuv};
     for (unsigned i = 0; i < 256; i++) {
         cells[i] = (uint8_t)(255 - i);
         map[i] = (uint8_t)(i ^ 0x55u);
@@ -515,14 +522,43 @@ static void test_rows_that_cannot_be_are_refused(void)
 
 static void test_a_classifier_without_classes_is_refused(void)
 {
-    static const pel_classifier nothing = {NULL, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL};
-    static const pel_classifier too_fine = {NULL, {cells, 9, 0, 0}, PEL_RANGE_FULL, NULL};
+    static const pel_classifier nothing = {
+        NULL, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
+    static const pel_classifier too_fine = {
+        NULL, {cells, 9, 0, 0}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
     const pel_crow row = long_row(PEL_YUYV);
     uint8_t labels[LONG];
     TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_classify_row(&nothing, &row, labels));
     TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_classify_row(&too_fine, &row, labels));
     TEST_ASSERT_EQUAL_UINT8(0, pel_classify_color(&nothing, 1, 2, 3));
     TEST_ASSERT_EQUAL_UINT8(0, pel_classify_color(NULL, 1, 2, 3));
+}
+
+static void test_only_boxes_on_ycbcr_do_without_a_reader(void)
+{
+    pel_classifier classifier = classifier_of_boxes();
+    uint8_t labels[LONG];
+    set_wide_boxes();
+    classifier.reader = NULL;
+    for (int f = 0; f < PEL_FORMAT_COUNT; f++) {
+        const pel_crow row = long_row(f);
+        labels[0] = CANARY;
+        TEST_ASSERT_EQUAL_INT(f <= PEL_I420 ? PEL_OK : PEL_ERR_FORMAT,
+                              pel_classify_row(&classifier, &row, labels));
+        TEST_ASSERT_EQUAL_INT(f <= PEL_I420, labels[0] != CANARY);
+    }
+    classifier.boxes = NULL;
+    classifier.lut.cell = cells;
+    for (int f = 0; f < PEL_FORMAT_COUNT; f++) {
+        const pel_crow row = long_row(f);
+        TEST_ASSERT_EQUAL_INT(PEL_ERR_FORMAT, pel_classify_row(&classifier, &row, labels));
+    }
+    classifier.reader = pel_crow_read_bayer; /* a reader reads what it is made for */
+    for (int f = 0; f < PEL_FORMAT_COUNT; f++) {
+        const pel_crow row = long_row(f);
+        TEST_ASSERT_EQUAL_INT(f >= PEL_BAYER8_RGGB ? PEL_OK : PEL_ERR_FORMAT,
+                              pel_classify_row(&classifier, &row, labels));
+    }
 }
 
 static void test_no_box_set_means_background_everywhere(void)
@@ -564,6 +600,7 @@ int main(void)
     RUN_TEST(test_mixing_ranges_is_refused_and_nothing_is_written);
     RUN_TEST(test_rows_that_cannot_be_are_refused);
     RUN_TEST(test_a_classifier_without_classes_is_refused);
+    RUN_TEST(test_only_boxes_on_ycbcr_do_without_a_reader);
     RUN_TEST(test_no_box_set_means_background_everywhere);
     return UNITY_END();
 }

@@ -209,6 +209,38 @@ static void test_rows_may_be_read_from_any_column_and_in_any_length(void)
     }
 }
 
+/* Each reader of one layout does what the general one does, for its formats and for no other. */
+static void test_readers_of_one_layout(void)
+{
+    static const struct {
+        pel_reader *reader;
+        int first, last;
+    } of[] = {{pel_crow_read_ycbcr, PEL_GRAY8, PEL_I420},
+              {pel_crow_read_rgb565, PEL_RGB565_LE, PEL_RGB565_BE},
+              {pel_crow_read_rgb24, PEL_RGB888, PEL_BGR888},
+              {pel_crow_read_bayer, PEL_BAYER8_RGGB, PEL_BAYER8_BGGR}};
+    for (unsigned i = 0; i < sizeof of / sizeof of[0]; i++) {
+        for (int f = 0; f < PEL_FORMAT_COUNT; f++) {
+            const pel_status can = f >= of[i].first && f <= of[i].last ? PEL_OK : PEL_ERR_FORMAT;
+            const pel_crow row = long_row(f);
+            yuv_row part = {{CANARY}, {CANARY}, {CANARY}}, all = part;
+            TEST_ASSERT_EQUAL_INT(can,
+                                  of[i].reader(&row, 0, 0, PEL_RANGE_FULL, part.y, part.u, part.v));
+            TEST_ASSERT_EQUAL_HEX8(CANARY, part.y[0]); /* no pixels: only the answer */
+            TEST_ASSERT_EQUAL_INT(
+                can, of[i].reader(&row, 1, 18, PEL_RANGE_FULL, part.y, part.u, part.v));
+            if (can == PEL_OK) {
+                pel_crow_read_yuv(&row, 1, 18, PEL_RANGE_FULL, all.y, all.u, all.v);
+            }
+            TEST_ASSERT_EQUAL_UINT8_ARRAY(all.y, part.y, 18);
+            TEST_ASSERT_EQUAL_UINT8_ARRAY(all.u, part.u, 18);
+            TEST_ASSERT_EQUAL_UINT8_ARRAY(all.v, part.v, 18);
+            TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG,
+                                  of[i].reader(&row, 0, 4, PEL_RANGE_FULL, part.y, part.u, NULL));
+        }
+    }
+}
+
 /* ---- Refusals ------------------------------------------------------------------------------ */
 
 static void test_reading_beyond_the_row_is_refused(void)
@@ -264,6 +296,7 @@ int main(void)
     RUN_TEST(test_a_flat_colour_is_the_same_in_every_bayer_phase);
     RUN_TEST(test_colours_of_rgb_rows_are_converted_as_color_rows_are);
     RUN_TEST(test_rows_may_be_read_from_any_column_and_in_any_length);
+    RUN_TEST(test_readers_of_one_layout);
     RUN_TEST(test_reading_beyond_the_row_is_refused);
     RUN_TEST(test_reading_in_the_wrong_range_is_refused_and_nothing_is_written);
     RUN_TEST(test_reading_refuses_null_pointers_and_impossible_rows);

@@ -112,18 +112,13 @@ uint16_t pel_blob_compactness_q15(const pel_blob *blob);
 
 /*
  * Which blobs count. Every bound belongs to the allowed interval; 0 in a `max` means no bound, so a
- * zeroed filter lets everything pass. Aspect is box width / box height, compared exactly; density
- * and elongation are compared as the functions above give them. Elongation needs
- * PEL_MEASURE_MOMENTS (without it pel_blobs_begin refuses such a filter) and costs two square roots
- * per blob; the others cost nearly nothing.
+ * zeroed filter lets everything pass. Aspect is box width / box height, compared exactly.
  */
 typedef struct pel_blob_filter {
-    uint32_t area_min, area_max;               /* pixels */
-    uint16_t width_min, width_max;             /* of the box, pixels */
-    uint16_t height_min, height_max;           /* of the box, pixels */
-    uint32_t aspect_min_q16, aspect_max_q16;   /* 65536 = as wide as high */
-    uint16_t density_min_q15, density_max_q15; /* area / box */
-    uint16_t elongation_min_q15, elongation_max_q15;
+    uint32_t area_min, area_max;             /* pixels */
+    uint16_t width_min, width_max;           /* of the box, pixels */
+    uint16_t height_min, height_max;         /* of the box, pixels */
+    uint32_t aspect_min_q16, aspect_max_q16; /* 65536 = as wide as high */
     uint32_t class_mask;                     /* bit c: class c < 32 may pass; 0 = all */
     uint16_t roi_x0, roi_x1, roi_y0, roi_y1; /* the centroid must lie inside, half-open; all 0 =
                                                       no region of interest */
@@ -131,6 +126,23 @@ typedef struct pel_blob_filter {
 
 /* 1 if the blob passes the filter, 0 if not; a NULL filter passes all. */
 int pel_blob_passes(const pel_blob *blob, const pel_blob_filter *filter);
+
+/*
+ * Bounds of what takes more code to compute, by the same rules and as the functions above give it.
+ * Elongation needs PEL_MEASURE_MOMENTS (without, it is 0) and costs two square roots per blob.
+ */
+typedef struct pel_blob_shape {
+    uint16_t density_min_q15, density_max_q15;
+    uint16_t elongation_min_q15, elongation_max_q15;
+} pel_blob_shape;
+
+/* A further decision about a blob: 1 passes, 0 does not. pel_blobs_config names the function, so
+ * that a program links only what it asks for. */
+typedef int pel_blob_accept(const void *limits, const pel_blob *blob);
+
+/* 1 if the blob lies within a pel_blob_shape, 0 if not or for a NULL blob; NULL limits pass all
+ * others. */
+pel_blob_accept pel_blob_shape_passes;
 
 /* ---- Finding blobs ------------------------------------------------------------------------- */
 
@@ -190,31 +202,41 @@ typedef struct pel_blobs_config {
     size_t work_bytes;
     const pel_blob_filter *filter; /* what counts as a blob; NULL: everything. Not copied:
                                       it stays as it is until the end */
-    pel_blob *results; /* the largest blobs, for pel_blobs_end; may be NULL if results_max
-                                      is 0. 64 bytes each */
+
+    /* Asked about every blob that passes the filter: what it answers 0 to is counted as filtered.
+     * pel_blob_shape_passes, or one of your own; NULL: nobody is asked. */
+    pel_blob_accept *accept;
+    const void *limits; /* handed to accept; not copied */
+
+    /* Reads the pixels for PEL_MEASURE_COLOR, which needs it: pel_crow_read_yuv for any format, or
+     * one that links less (see pel_reader). */
+    pel_reader *reader;
+
+    pel_blob *results; /* the largest blobs, for pel_blobs_end; may be NULL if results_max is 0.
+                          64 bytes each */
     uint32_t results_max;
-    void (*on_blob)(void *user,
-                    const pel_blob *blob); /* called for every blob that passes the filter,
-                             as soon as it is closed, from within pel_blobs_row or pel_blobs_end;
-                             the blob is valid during the call. NULL: nobody is called */
-    void *user;                            /* handed to on_blob */
+
+    /* Called for every blob that passes, as soon as it is closed, from within pel_blobs_row or
+     * pel_blobs_end; the blob is valid during the call. NULL: nobody is called. */
+    void (*on_blob)(void *user, const pel_blob *blob);
+    void *user; /* handed to on_blob */
 } pel_blobs_config;
 
 /* Counters of a frame, final after pel_blobs_end. Every coloured pixel of the frame is in exactly
  * one of: the blobs kept (with results_max 0: the blobs found), filtered_px, dropped_px, lost_px.
  */
 typedef struct pel_blobs_counts {
-    uint32_t found;       /* blobs that passed the filter */
+    uint32_t found;       /* blobs that passed filter and accept */
     uint32_t dropped;     /* of those, not in `results` because it was full of larger ones */
     uint32_t dropped_px;  /* their pixels. With results_max 0 nothing counts as dropped */
-    uint32_t filtered;    /* blobs that the filter stopped */
+    uint32_t filtered;    /* blobs that filter or accept stopped */
     uint32_t filtered_px; /* their pixels */
     uint32_t lost_px;    /* pixels of blobs that were not measured because open_max was too small */
     uint32_t lost_opens; /* how often a blob could not be opened; 0 means nothing was lost */
     uint16_t open_peak;  /* the most blobs that were open at once: what open_max needs to be */
 } pel_blobs_counts;
 
-/* The finder. The caller places it (120 bytes on 32-bit machines), zeroes it unless pel_blobs_begin
+/* The finder. The caller places it (132 bytes on 32-bit machines), zeroes it unless pel_blobs_begin
  * is the first to see it, and reads `counts`; the rest is private. */
 typedef struct pel_blobs {
     pel_blobs_config config;
@@ -240,7 +262,7 @@ typedef struct pel_blobs {
  * Starts a frame; any frame in progress is forgotten. The config is copied.
  *
  * PEL_ERR_ARG: null pointer, misaligned work, finder, work and results that overlap, connectivity
- * not 0, 4, 8, unknown measure bits, open_max out of range, a filter for what is not measured.
+ * not 0, 4, 8, unknown measure bits, open_max out of range, colour without a reader.
  * PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX, or so large that a 32-bit sum could overflow
  * (width * width * height or width * height * height over 2^33: 1920 x 1080 and 2048 x 2048 are
  * allowed, 2592 x 1944 is not). PEL_ERR_SPACE: work_bytes too small.
@@ -255,7 +277,7 @@ pel_status pel_blobs_begin(pel_blobs *blobs, const pel_blobs_config *config);
  * PEL_TRUNCATED: done, but a blob of this row was lost for want of open blobs. PEL_ERR_ORDER: not
  * the row that is due; the frame goes on unharmed. PEL_ERR_ARG: null pointer, or labels in memory
  * that the finder writes. PEL_ERR_FORMAT: the pixels have another width; others as of
- * pel_crow_check.
+ * the reader.
  */
 pel_status pel_blobs_row(pel_blobs *blobs, uint16_t y, const uint8_t *labels,
                          const pel_crow *pixels);

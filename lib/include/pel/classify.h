@@ -60,22 +60,26 @@ uint32_t pel_lut_bytes(unsigned y_bits, unsigned u_bits, unsigned v_bits);
  * that the classes were made for; a YCbCr row of the other range is refused, RGB rows are converted
  * to it. `relabel`, if not NULL, is a table of 256 bytes applied to every label after that, so that
  * several boxes or cells can stand for one colour. Zero value: refused (no classes).
+ *
+ * Boxes work on YCbCr and gray rows as they are. A look-up table, and boxes on RGB and Bayer rows,
+ * need a `reader`: pel_crow_read_yuv for any format, or one that links less (see pel_reader).
  */
 typedef struct pel_classifier {
     const pel_boxes *boxes;
     pel_lut lut;
     pel_range range;
     const uint8_t *relabel;
+    pel_reader *reader;
 } pel_classifier;
 
 /*
- * Classifies a row of any format: labels[x] for 0 <= x < pel_color_width(row).
- * Cost per pixel: 4:2:x boxes, three look-ups at most; other formats are read in pieces of 32
- * pixels first. Stack: under 256 bytes.
+ * Classifies a row: labels[x] for 0 <= x < pel_color_width(row).
+ * Cost per pixel: boxes on YCbCr, three look-ups at most; what goes through the reader is read in
+ * pieces of 16 pixels first.
  *
  * PEL_ERR_ARG: null pointer, unknown format or range, no classes, table bits over 8, labels that
- * overlap the row. PEL_ERR_FORMAT:
- * impossible width, or a colour range that is not the classifier's.
+ * overlap the row. PEL_ERR_FORMAT: impossible width, a colour range that is not the classifier's,
+ * or no reader for this format.
  */
 pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *row, uint8_t *labels);
 

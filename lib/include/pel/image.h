@@ -155,6 +155,21 @@ pel_status pel_crow_read_yuv(const pel_crow *row, uint16_t x, uint16_t count, pe
                              uint8_t *y, uint8_t *u, uint8_t *v);
 
 /*
+ * A function like pel_crow_read_yuv. What needs more of a format than its YCbCr bytes in place is
+ * told which function reads it (pel_classifier, pel_blobs_config), so that a program links only the
+ * readers that it names: pel_crow_read_yuv for all formats, or one of those below, which do the
+ * same for their formats and answer PEL_ERR_FORMAT to others. With a count of 0 a reader only says
+ * whether it can read the row.
+ */
+typedef pel_status pel_reader(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
+                              uint8_t *y, uint8_t *u, uint8_t *v);
+
+pel_reader pel_crow_read_ycbcr;  /* GRAY8, YUYV and its kin, NV12, I420 */
+pel_reader pel_crow_read_rgb24;  /* RGB888, BGR888 */
+pel_reader pel_crow_read_rgb565; /* RGB565_LE, RGB565_BE */
+pel_reader pel_crow_read_bayer;  /* BAYER8_... */
+
+/*
  * Reads `count` pixels of a row from column x on as R G B, 3 * count bytes. YCbCr is converted as
  * pel_ycbcr_to_rgb_row does, from the row's own range. Statuses as of pel_crow_read_yuv.
  */

@@ -1,0 +1,186 @@
+/*
+ * Readers: rows of any format as separate Y, U and V, or as R G B. One function for each layout and
+ * one for all of them, so that a program links only what it names.
+ */
+#include "format.h"
+#include "overlap.h"
+
+/* What all readers refuse. */
+static pel_status check_part(const pel_crow *row, uint16_t x, uint16_t count)
+{
+    const pel_status status = pel_crow_check(row);
+
+    if (status != PEL_OK) {
+        return status;
+    }
+    return (uint32_t)x + count <= pel_color_width(row->format, row->width) ? PEL_OK : PEL_ERR_RANGE;
+}
+
+/* ---- To Y, U and V ------------------------------------------------------------------------- */
+
+/* Where the parts of a colour go. */
+typedef struct planes {
+    uint8_t *y, *u, *v;
+} planes;
+
+static pel_status check_yuv(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
+                            planes to)
+{
+    const pel_status status = to.y && to.u && to.v && (unsigned)range <= PEL_RANGE_LIMITED
+                                  ? check_part(row, x, count)
+                                  : PEL_ERR_ARG;
+    if (status != PEL_OK) {
+        return status;
+    }
+    return pel_i_crow_overlaps(row, to.y, count) || pel_i_crow_overlaps(row, to.u, count) ||
+                   pel_i_crow_overlaps(row, to.v, count) ||
+                   pel_i_overlap(to.y, count, to.u, count) ||
+                   pel_i_overlap(to.y, count, to.v, count) ||
+                   pel_i_overlap(to.u, count, to.v, count)
+               ? PEL_ERR_ARG
+               : PEL_OK;
+}
+
+/* Pixels x .. x+count-1 of a row that is not YCbCr as R G B. */
+typedef void rgb_reader(const pel_crow *row, uint16_t x, uint16_t count, uint8_t *rgb);
+
+static void rgb_of_rgb24(const pel_crow *row, uint16_t x, uint16_t count, uint8_t *rgb)
+{
+    pel_row_read_rgb24(row->plane[0] + 3 * (size_t)x, count, pel_i_format(row->format)->order, rgb);
+}
+
+static void rgb_of_rgb565(const pel_crow *row, uint16_t x, uint16_t count, uint8_t *rgb)
+{
+    pel_row_read_rgb565(row->plane[0] + 2 * (size_t)x, count, pel_i_format(row->format)->order,
+                        rgb);
+}
+
+static void rgb_of_bayer(const pel_crow *row, uint16_t x, uint16_t count, uint8_t *rgb)
+{
+    pel_row_read_bayer(row->plane[0] + 2 * (size_t)x, row->plane[1] + 2 * (size_t)x, count,
+                       pel_i_format(row->format)->order, rgb);
+}
+
+enum { CHUNK = 16 }; /* pixels converted at a time: 48 bytes of stack */
+
+static void convert(const pel_crow *row, uint16_t x, uint16_t count, rgb_reader *read, int limited,
+                    planes to)
+{
+    uint8_t rgb[3 * CHUNK];
+
+    for (uint16_t done = 0; done < count; done = (uint16_t)(done + CHUNK)) {
+        const uint16_t n = (uint16_t)(count - done < CHUNK ? count - done : CHUNK);
+        read(row, (uint16_t)(x + done), n, rgb);
+        pel_row_rgb_to_ycbcr(rgb, n, limited, to.y + done, to.u + done, to.v + done, 1);
+    }
+}
+
+/* A reader of one layout, after its checks. */
+static pel_status read_layout(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
+                              enum pel_layout layout, rgb_reader *read, planes to)
+{
+    const pel_status status = check_yuv(row, x, count, range, to);
+
+    if (status == PEL_OK && pel_i_format(row->format)->layout != layout) {
+        return PEL_ERR_FORMAT;
+    }
+    if (status == PEL_OK) {
+        convert(row, x, count, read, range == PEL_RANGE_LIMITED, to);
+    }
+    return status;
+}
+
+pel_status pel_crow_read_rgb24(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
+                               uint8_t *y, uint8_t *u, uint8_t *v)
+{
+    const planes to = {y, u, v};
+    return read_layout(row, x, count, range, PEL_LAYOUT_RGB24, rgb_of_rgb24, to);
+}
+
+pel_status pel_crow_read_rgb565(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
+                                uint8_t *y, uint8_t *u, uint8_t *v)
+{
+    const planes to = {y, u, v};
+    return read_layout(row, x, count, range, PEL_LAYOUT_RGB565, rgb_of_rgb565, to);
+}
+
+pel_status pel_crow_read_bayer(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
+                               uint8_t *y, uint8_t *u, uint8_t *v)
+{
+    const planes to = {y, u, v};
+    return read_layout(row, x, count, range, PEL_LAYOUT_BAYER, rgb_of_bayer, to);
+}
+
+pel_status pel_crow_read_ycbcr(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
+                               uint8_t *y, uint8_t *u, uint8_t *v)
+{
+    const planes to = {y, u, v};
+    const pel_status status = check_yuv(row, x, count, range, to);
+    const pel_format_info *info;
+
+    if (status != PEL_OK) {
+        return status;
+    }
+    info = pel_i_format(row->format);
+    if (info->layout != PEL_LAYOUT_PAIRS || row->range != range) {
+        return PEL_ERR_FORMAT;
+    }
+    {
+        const pel_row_pairs pairs = pel_i_pairs(info, row);
+        pel_row_read_pairs(&pairs, x, count, y, u, v);
+    }
+    return PEL_OK;
+}
+
+pel_status pel_crow_read_yuv(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
+                             uint8_t *y, uint8_t *u, uint8_t *v)
+{
+    const pel_format_info *info = row ? pel_i_format(row->format) : NULL;
+
+    if (!info) {
+        return PEL_ERR_ARG;
+    }
+    return info->layout == PEL_LAYOUT_PAIRS    ? pel_crow_read_ycbcr(row, x, count, range, y, u, v)
+           : info->layout == PEL_LAYOUT_RGB24  ? pel_crow_read_rgb24(row, x, count, range, y, u, v)
+           : info->layout == PEL_LAYOUT_RGB565 ? pel_crow_read_rgb565(row, x, count, range, y, u, v)
+                                               : pel_crow_read_bayer(row, x, count, range, y, u, v);
+}
+
+/* ---- To R G B ------------------------------------------------------------------------------ */
+
+/* Pairs to R G B in pieces. */
+static void convert_pairs(const pel_row_pairs *pairs, uint16_t x, uint16_t count, int limited,
+                          uint8_t *rgb)
+{
+    uint8_t yuv[3 * CHUNK];
+
+    for (uint16_t done = 0; done < count; done = (uint16_t)(done + CHUNK)) {
+        const uint16_t n = (uint16_t)(count - done < CHUNK ? count - done : CHUNK);
+        pel_row_read_pairs(pairs, (uint16_t)(x + done), n, yuv, yuv + CHUNK, yuv + 2 * CHUNK);
+        pel_row_ycbcr_to_rgb(yuv, yuv + CHUNK, yuv + 2 * CHUNK, 1, n, limited,
+                             rgb + 3 * (size_t)done);
+    }
+}
+
+pel_status pel_crow_read_rgb(const pel_crow *row, uint16_t x, uint16_t count, uint8_t *rgb)
+{
+    const pel_format_info *info;
+    const pel_status status = rgb ? check_part(row, x, count) : PEL_ERR_ARG;
+
+    if (status != PEL_OK) {
+        return status;
+    }
+    if (pel_i_crow_overlaps(row, rgb, 3 * (size_t)count)) {
+        return PEL_ERR_ARG;
+    }
+    info = pel_i_format(row->format);
+    if (info->layout == PEL_LAYOUT_PAIRS) {
+        const pel_row_pairs pairs = pel_i_pairs(info, row);
+        convert_pairs(&pairs, x, count, row->range == PEL_RANGE_LIMITED, rgb);
+    } else {
+        (info->layout == PEL_LAYOUT_RGB24    ? rgb_of_rgb24
+         : info->layout == PEL_LAYOUT_RGB565 ? rgb_of_rgb565
+                                             : rgb_of_bayer)(row, x, count, rgb);
+    }
+    return PEL_OK;
+}
