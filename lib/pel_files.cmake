@@ -20,6 +20,8 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/blob_shape.c
     ${PEL_LIB_DIR}/src/blob_list.c
     ${PEL_LIB_DIR}/src/filter.c
+    ${PEL_LIB_DIR}/src/filter_ops.c
+    ${PEL_LIB_DIR}/src/filter_kernel.c
     ${PEL_LIB_DIR}/src/filter_frame.c
     ${PEL_LIB_DIR}/src/point_table.c
     ${PEL_LIB_DIR}/src/point_stats.c

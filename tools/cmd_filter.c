@@ -63,30 +63,37 @@ enum { STEPS_MAX = 2 };
 /* The operators that are not kernels: one step, or two for opening and closing. */
 typedef struct named_operator {
     const char *name, *summary;
-    pel_filter_op step[STEPS_MAX];
+    pel_filter_op *step[STEPS_MAX];
     unsigned steps;
+    pel_filter_op_s16 *wide; /* NULL if it has no 16-bit results */
 } named_operator;
 
 static const named_operator operators[] = {
-    {"gradient-abs", "|gx| + |gy| of Sobel", {PEL_FILTER_GRADIENT_ABS}, 1},
-    {"gradient", "sqrt(gx^2 + gy^2) of Sobel, rounded down", {PEL_FILTER_GRADIENT}, 1},
+    {"gradient-abs", "|gx| + |gy| of Sobel", {pel_op_gradient_abs}, 1, pel_op_gradient_abs_s16},
+    {"gradient",
+     "sqrt(gx^2 + gy^2) of Sobel, rounded down",
+     {pel_op_gradient},
+     1,
+     pel_op_gradient_s16},
     {"direction",
      "atan2(gy, gx) in 1/256 of a turn: 0 brighter to the right, 64 below",
-     {PEL_FILTER_DIRECTION},
-     1},
-    {"median", "the fifth of the nine: takes out single pixels", {PEL_FILTER_MEDIAN}, 1},
-    {"erode", "the smallest of the nine; also called min", {PEL_FILTER_MIN}, 1},
-    {"dilate", "the largest of the nine; also called max", {PEL_FILTER_MAX}, 1},
-    {"min", NULL, {PEL_FILTER_MIN}, 1},
-    {"max", NULL, {PEL_FILTER_MAX}, 1},
-    {"open", "erode, then dilate: small bright things go", {PEL_FILTER_MIN, PEL_FILTER_MAX}, 2},
-    {"close", "dilate, then erode: small dark things go", {PEL_FILTER_MAX, PEL_FILTER_MIN}, 2},
-    {"majority", "of labels: the most frequent of the nine", {PEL_FILTER_MAJORITY}, 1},
-    {"erode-labels", "the label if all nine are it, else 0", {PEL_FILTER_ERODE_LABELS}, 1},
+     {pel_op_direction},
+     1,
+     NULL},
+    {"median", "the fifth of the nine: takes out single pixels", {pel_op_median}, 1, NULL},
+    {"erode", "the smallest of the nine; also called min", {pel_op_min}, 1, NULL},
+    {"dilate", "the largest of the nine; also called max", {pel_op_max}, 1, NULL},
+    {"min", NULL, {pel_op_min}, 1, NULL},
+    {"max", NULL, {pel_op_max}, 1, NULL},
+    {"open", "erode, then dilate: small bright things go", {pel_op_min, pel_op_max}, 2, NULL},
+    {"close", "dilate, then erode: small dark things go", {pel_op_max, pel_op_min}, 2, NULL},
+    {"majority", "of labels: the most frequent of the nine", {pel_op_majority}, 1, NULL},
+    {"erode-labels", "the label if all nine are it, else 0", {pel_op_erode_labels}, 1, NULL},
     {"dilate-labels",
      "its own label; where that is 0, the smallest one around",
-     {PEL_FILTER_DILATE_LABELS},
-     1},
+     {pel_op_dilate_labels},
+     1,
+     NULL},
 };
 
 enum { OPERATORS = sizeof operators / sizeof operators[0] };
@@ -95,8 +102,9 @@ struct job {
     turn turn;
     const char *numbers; /* of --kernel */
     pel_kernel kernel;
-    pel_filter_op step[STEPS_MAX];
+    pel_filter_op *step[STEPS_MAX]; /* NULL is the kernel */
     unsigned steps;
+    pel_filter_op_s16 *wide_op;
     pel_filter_config config;
     long shift, divide; /* -1 and 0: as the kernel has it */
     int32_t bias;       /* NO_BIAS likewise */
@@ -171,7 +179,7 @@ static int find_name(const char *word, struct job *job)
     const pel_kernel *named = pel_kernel_named(spelt);
     if (named) {
         job->kernel = *named;
-        job->step[0] = PEL_FILTER_KERNEL;
+        job->step[0] = NULL;
         job->steps = 1;
         return 0;
     }
@@ -180,6 +188,7 @@ static int find_name(const char *word, struct job *job)
         if (strcmp(spelt, operators[i].name) == 0) {
             memcpy(job->step, operators[i].step, sizeof job->step);
             job->steps = operators[i].steps;
+            job->wide_op = operators[i].wide;
             return 0;
         }
     }
@@ -277,7 +286,7 @@ static int take_option(int option, struct job *job)
 static int finish_kernel(struct job *job)
 {
     pel_kernel *const kernel = &job->kernel;
-    if (job->step[0] != PEL_FILTER_KERNEL) {
+    if (job->step[0]) {
         if (job->shift >= 0 || job->divide > 0 || job->bias != NO_BIAS || job->absolute ||
             job->convolve) {
             return usage_error("filter", "--shift, --divide, --bias, --absolute and --convolve are "
@@ -309,8 +318,7 @@ static int check_wide(const struct job *job)
     if (job->repeat > 1) {
         return usage_error("filter", "--wide results cannot be filtered again: no --repeat");
     }
-    if (job->step[0] != PEL_FILTER_KERNEL && job->step[0] != PEL_FILTER_GRADIENT &&
-        job->step[0] != PEL_FILTER_GRADIENT_ABS) {
+    if (job->step[0] && !job->wide_op) {
         return usage_error("filter", "--wide is for kernels, gradient and gradient-abs");
     }
     return -1;
@@ -323,7 +331,7 @@ static int choose_filter(int argc, char **argv, struct job *job)
         return usage_error("filter", "either --shift or --divide");
     }
     if (job->numbers) {
-        job->step[0] = PEL_FILTER_KERNEL;
+        job->step[0] = NULL;
         job->steps = 1;
         if (read_kernel(job->numbers, &job->kernel)) {
             return usage_hint("filter");
@@ -384,7 +392,7 @@ static int prepare(const struct job *job, const char *path, const pel_cview *vie
 }
 
 /* One step on every channel, 8 bits. */
-static int filter_channels(const struct job *job, const char *path, pel_filter_op op,
+static int filter_channels(const struct job *job, const char *path, pel_filter_op *op,
                            const planes *from, planes *to)
 {
     const pel_cview first = planes_view(from, 0);
@@ -395,9 +403,7 @@ static int filter_channels(const struct job *job, const char *path, pel_filter_o
     config.op = op;
     config.width = first.width;
     config.height = first.height;
-    const int less = config.border != PEL_BORDER_VALID                    ? 0
-                     : op == PEL_FILTER_KERNEL && job->kernel.radius == 2 ? 4
-                                                                          : 2;
+    const int less = config.border != PEL_BORDER_VALID ? 0 : !op && job->kernel.radius == 2 ? 4 : 2;
     pel_status status = PEL_ERR_RANGE;
     int failed = 0;
     if (first.width > less && first.height > less) {
@@ -422,7 +428,7 @@ static int make_wide(struct job *job, const char *path, const pel_cview *view)
     if (prepare(job, path, view, &config)) {
         return -1;
     }
-    config.op = job->step[0];
+    config.op_s16 = job->wide_op;
     config.width = view->width;
     config.height = view->height;
     const uint16_t width = pel_filter_width(&config);

@@ -1,5 +1,6 @@
 #include "pel/filter.h"
 
+#include "filter_radius.h"
 #include "row/row_filter.h"
 
 /* ---- Borders ------------------------------------------------------------------------------- */
@@ -39,98 +40,6 @@ int32_t pel_border_index(int32_t i, int32_t length, pel_border border)
         break;
     }
     return -1;
-}
-
-/* ---- Kernels ------------------------------------------------------------------------------- */
-
-/* Kernels with a way of their own, by the value of `fast`. */
-enum { FAST_NONE, FAST_GAUSS3, FAST_BOX3, FAST_SOBEL_X, FAST_SOBEL_Y, FAST_BINOMIAL5 };
-
-typedef struct named_kernel {
-    char name[20];
-    pel_kernel kernel;
-} named_kernel;
-
-/* name, {taps, radius, divisor, shift, absolute, bias, fast}. No pointers in here: it stays in
- * flash. */
-static const named_kernel named_kernels[] = {
-    {"identity", {{0, 0, 0, 0, 1, 0, 0, 0, 0}, 1, 1, 0, 0, 0, FAST_NONE}},
-    {"shift_left", {{0, 0, 0, 0, 0, 1, 0, 0, 0}, 1, 1, 0, 0, 0, FAST_NONE}},
-    {"shift_right", {{0, 0, 0, 1, 0, 0, 0, 0, 0}, 1, 1, 0, 0, 0, FAST_NONE}},
-    {"shift_up", {{0, 0, 0, 0, 0, 0, 0, 1, 0}, 1, 1, 0, 0, 0, FAST_NONE}},
-    {"shift_down", {{0, 1, 0, 0, 0, 0, 0, 0, 0}, 1, 1, 0, 0, 0, FAST_NONE}},
-    {"box3", {{1, 1, 1, 1, 1, 1, 1, 1, 1}, 1, 9, 0, 0, 0, FAST_BOX3}},
-    {"gauss3", {{1, 2, 1, 2, 4, 2, 1, 2, 1}, 1, 1, 4, 0, 0, FAST_GAUSS3}},
-    {"gauss5",
-     {{1, 3, 6, 3, 1, 3, 15, 25, 15, 3, 6, 25, 44, 25, 6, 3, 15, 25, 15, 3, 1, 3, 6, 3, 1},
-      2,
-      1,
-      8,
-      0,
-      0,
-      FAST_NONE}},
-    {"binomial5",
-     {{1, 4, 6, 4, 1, 4, 16, 24, 16, 4, 6, 24, 36, 24, 6, 4, 16, 24, 16, 4, 1, 4, 6, 4, 1},
-      2,
-      1,
-      8,
-      0,
-      0,
-      FAST_BINOMIAL5}},
-    {"sobel_x", {{-1, 0, 1, -2, 0, 2, -1, 0, 1}, 1, 1, 0, 0, 0, FAST_SOBEL_X}},
-    {"sobel_y", {{-1, -2, -1, 0, 0, 0, 1, 2, 1}, 1, 1, 0, 0, 0, FAST_SOBEL_Y}},
-    {"scharr_x", {{-3, 0, 3, -10, 0, 10, -3, 0, 3}, 1, 1, 0, 0, 0, FAST_NONE}},
-    {"scharr_y", {{-3, -10, -3, 0, 0, 0, 3, 10, 3}, 1, 1, 0, 0, 0, FAST_NONE}},
-    {"prewitt_x", {{-1, 0, 1, -1, 0, 1, -1, 0, 1}, 1, 1, 0, 0, 0, FAST_NONE}},
-    {"prewitt_y", {{-1, -1, -1, 0, 0, 0, 1, 1, 1}, 1, 1, 0, 0, 0, FAST_NONE}},
-    {"laplacian", {{0, 1, 0, 1, -4, 1, 0, 1, 0}, 1, 1, 0, 0, 0, FAST_NONE}},
-    {"laplacian_negative", {{0, -1, 0, -1, 4, -1, 0, -1, 0}, 1, 1, 0, 0, 0, FAST_NONE}},
-    {"sharpen", {{-1, -1, -1, -1, 17, -1, -1, -1, -1}, 1, 9, 0, 0, 0, FAST_NONE}},
-    {"sharpen5", {{0, -1, 0, -1, 5, -1, 0, -1, 0}, 1, 1, 0, 0, 0, FAST_NONE}},
-    {"emboss", {{-2, -1, 0, -1, 1, 1, 0, 1, 2}, 1, 1, 0, 0, 0, FAST_NONE}},
-};
-
-enum { NAMED_KERNELS = sizeof named_kernels / sizeof named_kernels[0] };
-
-static int same_name(const char *a, const char *b)
-{
-    while (*a != '\0' && *a == *b) {
-        a++;
-        b++;
-    }
-    return *a == *b;
-}
-
-const pel_kernel *pel_kernel_named(const char *name)
-{
-    for (unsigned i = 0; name && i < NAMED_KERNELS; i++) {
-        if (same_name(name, named_kernels[i].name)) {
-            return &named_kernels[i].kernel;
-        }
-    }
-    return NULL;
-}
-
-const char *pel_kernel_name(unsigned i)
-{
-    return i < NAMED_KERNELS ? named_kernels[i].name : NULL;
-}
-
-static unsigned tap_count(const pel_kernel *kernel)
-{
-    return kernel->radius == 1 ? 9 : 25;
-}
-
-pel_kernel pel_kernel_flipped(const pel_kernel *kernel)
-{
-    pel_kernel flipped = *kernel;
-    const unsigned taps = tap_count(kernel);
-
-    for (unsigned i = 0; i < taps; i++) {
-        flipped.tap[i] = kernel->tap[taps - 1 - i];
-    }
-    flipped.fast = FAST_NONE;
-    return flipped;
 }
 
 /* ---- The window of rows -------------------------------------------------------------------- */
@@ -176,7 +85,8 @@ static void put_sides(const pel_filter *f, uint8_t *row)
     }
 }
 
-static void put_row(const pel_filter *f, const uint8_t *src, uint8_t *row)
+/* The row in its slot and the one that is put there are never the same memory. */
+static void put_row(const pel_filter *f, const uint8_t *restrict src, uint8_t *restrict row)
 {
     for (uint16_t x = 0; x < f->config.width; x++) {
         row[x] = src[x];
@@ -212,24 +122,37 @@ static void put_row_below(const pel_filter *f, int32_t below)
     }
 }
 
-/* The rows around row y of the picture. */
+/* The rows around row y of the picture, at the first pixel that has a result. */
 static void window_at(const pel_filter *f, int32_t y, const uint8_t *rows[5])
 {
     const int32_t r = f->radius;
+    const int32_t x = f->config.border == PEL_BORDER_VALID ? r : 0;
 
     for (int32_t j = -r; j <= r; j++) {
         const int32_t copy = f->config.border == PEL_BORDER_WRAP
                                  ? -1
                                  : pel_border_index(y + j, f->config.height, f->config.border);
-        rows[j + r] = row_slot(f, copy < 0 ? y + j : copy);
+        rows[j + r] = row_slot(f, copy < 0 ? y + j : copy) + x;
     }
 }
 
 /* ---- Begin --------------------------------------------------------------------------------- */
 
-static unsigned radius_of(const pel_filter_config *c)
+/* Whether it is the kernel, and no operator, that is to be computed. */
+static int is_kernel(const pel_filter_config *c)
 {
-    return c->op == PEL_FILTER_KERNEL && c->kernel ? c->kernel->radius : 1;
+    return !c->op && !c->op_s16;
+}
+
+unsigned pel_i_filter_radius(const pel_filter_config *c)
+{
+    const unsigned words = c->op_s16 ? c->op_s16(NULL, 0, c->kernel, NULL) : 0;
+    const unsigned radius = c->op       ? c->op(NULL, 0, c->kernel, NULL)
+                            : c->op_s16 ? words
+                            : c->kernel ? c->kernel->radius
+                                        : 0;
+
+    return radius > 2 || (c->op_s16 && words != radius) ? 0 : radius;
 }
 
 uint32_t pel_filter_bytes(uint16_t width, unsigned radius, pel_border border)
@@ -238,86 +161,59 @@ uint32_t pel_filter_bytes(uint16_t width, unsigned radius, pel_border border)
                                      : PEL_FILTER_BYTES(width, radius);
 }
 
-static uint16_t less_border(uint16_t side, const pel_filter_config *c)
+static uint16_t less_border(uint16_t side, const pel_filter_config *c, unsigned radius)
 {
-    return (uint16_t)(c->border == PEL_BORDER_VALID ? side - 2 * radius_of(c) : side);
+    return (uint16_t)(c->border == PEL_BORDER_VALID ? side - 2 * radius : side);
 }
 
 uint16_t pel_filter_width(const pel_filter_config *config)
 {
-    return less_border(config->width, config);
+    return less_border(config->width, config, pel_i_filter_radius(config));
 }
 
 uint16_t pel_filter_height(const pel_filter_config *config)
 {
-    return less_border(config->height, config);
+    return less_border(config->height, config, pel_i_filter_radius(config));
 }
 
-static pel_status check_operator(const pel_filter_config *c)
+static pel_status check_operator(const pel_filter_config *c, unsigned radius)
 {
-    const pel_kernel *const k = c->kernel;
-
-    if ((unsigned)c->op >= PEL_FILTER_OP_COUNT || (unsigned)c->border > PEL_BORDER_VALID) {
+    if (radius == 0 || (unsigned)c->border > PEL_BORDER_VALID ||
+        (is_kernel(c) && (c->kernel->divisor > 32767 || c->kernel->shift > 15))) {
         return PEL_ERR_ARG;
     }
-    if (c->op == PEL_FILTER_KERNEL &&
-        (!k || k->radius < 1 || k->radius > 2 || k->divisor > 32767 || k->shift > 15)) {
-        return PEL_ERR_ARG;
-    }
-    if (c->border == PEL_BORDER_WRAP &&
-        (!c->last_rows[0] || (radius_of(c) == 2 && !c->last_rows[1]))) {
-        return PEL_ERR_ARG;
-    }
-    return PEL_OK;
+    return c->border == PEL_BORDER_WRAP && (!c->last_rows[0] || (radius == 2 && !c->last_rows[1]))
+               ? PEL_ERR_ARG
+               : PEL_OK;
 }
 
-static pel_status check_filter(const pel_filter_config *c)
+static pel_status check_filter(const pel_filter_config *c, unsigned radius)
 {
-    const pel_status status = c->work ? check_operator(c) : PEL_ERR_ARG;
-    uint16_t least;
+    const pel_status status = c->work ? check_operator(c, radius) : PEL_ERR_ARG;
+    const unsigned least = c->border == PEL_BORDER_VALID ? 2 * radius + 1 : 1;
 
     if (status != PEL_OK) {
         return status;
     }
-    least = (uint16_t)(c->border == PEL_BORDER_VALID ? 2 * radius_of(c) + 1 : 1);
     if (c->width < least || c->height < least || c->width > PEL_SIDE_MAX ||
         c->height > PEL_SIDE_MAX) {
         return PEL_ERR_RANGE;
     }
-    return c->work_bytes < pel_filter_bytes(c->width, radius_of(c), c->border) ? PEL_ERR_SPACE
-                                                                               : PEL_OK;
-}
-
-/* The way of its own that a kernel has, if it is still the kernel that has it: somebody may have
- * copied a named one and changed its taps. */
-static uint8_t fast_way(const pel_kernel *kernel)
-{
-    unsigned same = 0;
-
-    for (unsigned i = 0; i < NAMED_KERNELS && kernel->fast != FAST_NONE; i++) {
-        const pel_kernel *const known = &named_kernels[i].kernel;
-        if (known->fast == kernel->fast && known->radius == kernel->radius) {
-            while (same < tap_count(kernel) && known->tap[same] == kernel->tap[same]) {
-                same++;
-            }
-            return same == tap_count(kernel) ? kernel->fast : FAST_NONE;
-        }
-    }
-    return FAST_NONE;
+    return c->work_bytes < pel_filter_bytes(c->width, radius, c->border) ? PEL_ERR_SPACE : PEL_OK;
 }
 
 enum { STATE_IDLE, STATE_ROWS };
 
 pel_status pel_filter_begin(pel_filter *f, const pel_filter_config *config)
 {
-    const pel_status status = f && config ? check_filter(config) : PEL_ERR_ARG;
+    const unsigned radius = f && config ? pel_i_filter_radius(config) : 0;
+    const pel_status status = f && config ? check_filter(config, radius) : PEL_ERR_ARG;
 
     if (status != PEL_OK) {
         return status;
     }
     f->config = *config;
-    f->radius = (uint16_t)radius_of(config);
-    f->fast = config->op == PEL_FILTER_KERNEL ? fast_way(config->kernel) : FAST_NONE;
+    f->radius = (uint8_t)radius;
     f->pushed = 0;
     f->row = 0;
     f->state = STATE_ROWS;
@@ -327,8 +223,7 @@ pel_status pel_filter_begin(pel_filter *f, const pel_filter_config *config)
 
 /* ---- Push and pull ------------------------------------------------------------------------- */
 
-/* The row of the picture that the next row of the result lies on, and the last one that
- * it needs. */
+/* The row of the picture that the next row of the result lies on. */
 static int32_t next_centre(const pel_filter *f)
 {
     return f->config.border == PEL_BORDER_VALID ? f->row + f->radius : f->row;
@@ -338,7 +233,8 @@ static int is_ready(const pel_filter *f)
 {
     const int32_t last = f->config.height - 1, needed = next_centre(f) + f->radius;
 
-    return f->row < pel_filter_height(&f->config) && f->pushed > (needed < last ? needed : last);
+    return f->row < less_border(f->config.height, &f->config, f->radius) &&
+           f->pushed > (needed < last ? needed : last);
 }
 
 pel_status pel_filter_push(pel_filter *f, const uint8_t *row)
@@ -357,155 +253,96 @@ pel_status pel_filter_push(pel_filter *f, const uint8_t *row)
     return PEL_OK;
 }
 
-static void correlate(const pel_filter *f, const uint8_t *const rows[], uint16_t count,
-                      int32_t *sums)
+/* The rows around the first pixel of the next result; how many results there are, 0 if it is not
+ * their turn. */
+static uint16_t next_window(pel_filter *f, const uint8_t *rows[5])
 {
-    const pel_kernel *const kernel = f->config.kernel;
-
-    switch (f->fast) {
-    case FAST_GAUSS3:
-        pel_row_gauss3(rows, count, sums);
-        break;
-    case FAST_BOX3:
-        pel_row_box3(rows, count, sums);
-        break;
-    case FAST_SOBEL_X:
-        pel_row_sobel_x(rows, count, sums);
-        break;
-    case FAST_SOBEL_Y:
-        pel_row_sobel_y(rows, count, sums);
-        break;
-    case FAST_BINOMIAL5:
-        pel_row_binomial5(rows, count, sums);
-        break;
-    default:
-        if (kernel->radius == 1) {
-            pel_row_correlate3(rows, kernel->tap, count, sums);
-        } else {
-            pel_row_correlate5(rows, kernel->tap, count, sums);
-        }
-    }
-}
-
-/* Whether an operator gives sums, to be scaled, and not bytes. */
-static int gives_sums(pel_filter_op op)
-{
-    return op == PEL_FILTER_KERNEL || op == PEL_FILTER_GRADIENT_ABS || op == PEL_FILTER_GRADIENT;
-}
-
-static void sum_row(const pel_filter *f, const uint8_t *const rows[], uint16_t count, int32_t *sums)
-{
-    if (f->config.op == PEL_FILTER_KERNEL) {
-        correlate(f, rows, count, sums);
-    } else if (f->config.op == PEL_FILTER_GRADIENT_ABS) {
-        pel_row_gradient_abs(rows, count, sums);
-    } else {
-        pel_row_gradient(rows, count, sums);
-    }
-}
-
-static pel_row_scale scale_of(const pel_filter *f)
-{
-    const pel_kernel *const k = f->config.kernel;
-    pel_row_scale scale = {0, 1, 0, 0};
-
-    if (f->config.op == PEL_FILTER_KERNEL) {
-        scale.bias = k->bias;
-        scale.divisor = k->divisor == 0 ? 1 : k->divisor;
-        scale.shift = k->shift;
-        scale.absolute = k->absolute;
-    }
-    return scale;
-}
-
-enum { CHUNK = 16 }; /* sums kept at a time: 64 bytes of stack */
-
-/* Sums in pieces, each scaled into `bytes` or, if that is NULL, into `words`. */
-static void scale_row(const pel_filter *f, const uint8_t *rows[5], uint16_t count, uint8_t *bytes,
-                      int16_t *words)
-{
-    const pel_row_scale scale = scale_of(f);
-    const unsigned row_count = 2u * f->radius + 1u;
-
-    for (uint16_t done = 0; done < count; done = (uint16_t)(done + CHUNK)) {
-        int32_t sums[CHUNK];
-        const uint16_t n = (uint16_t)(count - done < CHUNK ? count - done : CHUNK);
-        sum_row(f, rows, n, sums);
-        if (bytes) {
-            pel_row_scale_u8(sums, &scale, n, bytes + done);
-        } else {
-            pel_row_scale_s16(sums, &scale, n, words + done);
-        }
-        for (unsigned i = 0; i < row_count; i++) {
-            rows[i] += n;
-        }
-    }
-}
-
-static void byte_row(pel_filter_op op, const uint8_t *const rows[], uint16_t count, uint8_t *out)
-{
-    switch (op) {
-    case PEL_FILTER_DIRECTION:
-        pel_row_direction(rows, count, out);
-        break;
-    case PEL_FILTER_MEDIAN:
-        pel_row_median3(rows, count, out);
-        break;
-    case PEL_FILTER_MIN:
-        pel_row_min3(rows, count, out);
-        break;
-    case PEL_FILTER_MAX:
-        pel_row_max3(rows, count, out);
-        break;
-    case PEL_FILTER_MAJORITY:
-        pel_row_majority3(rows, count, out);
-        break;
-    case PEL_FILTER_ERODE_LABELS:
-        pel_row_erode_labels3(rows, count, out);
-        break;
-    default:
-        pel_row_dilate_labels3(rows, count, out);
-    }
-}
-
-/* Into `bytes` or, if that is NULL, into `words`. */
-static pel_status pull(pel_filter *f, uint8_t *bytes, int16_t *words)
-{
-    const uint8_t *rows[5];
     const int32_t centre = next_centre(f);
-    const uint16_t count = pel_filter_width(&f->config);
 
     if (f->state != STATE_ROWS || !is_ready(f)) {
-        return PEL_ERR_ORDER;
+        return 0;
     }
     for (int32_t below = 1; below <= centre + f->radius - (f->config.height - 1); below++) {
         put_row_below(f, below);
     }
     window_at(f, centre, rows);
-    if (f->config.border == PEL_BORDER_VALID) {
-        for (unsigned i = 0; i < 2u * f->radius + 1u; i++) {
-            rows[i] += f->radius;
-        }
-    }
-    if (gives_sums(f->config.op)) {
-        scale_row(f, rows, count, bytes, words);
-    } else {
-        byte_row(f->config.op, rows, count, bytes);
-    }
     f->row++;
-    return PEL_OK;
+    return less_border(f->config.width, &f->config, f->radius);
+}
+
+/*
+ * How the sum of a kernel becomes a result: `start` makes it positive, 816000 being the largest,
+ * and holds the half to be rounded; what it adds to the quotient is taken away again with the bias.
+ * start <= 816000 + 3/2 * 32767 * 2^15 < 2^31.
+ */
+static pel_row_scale scale_of(const pel_kernel *k)
+{
+    const uint32_t divisor = (uint32_t)(k->divisor == 0 ? 1 : k->divisor) << k->shift;
+    const uint32_t more = 816000 / divisor + 1;
+    pel_row_scale scale;
+
+    scale.start = more * divisor + divisor / 2;
+    scale.flip = k->absolute ? scale.start : 0;
+    scale.divisor = k->divisor <= 1 ? 0 : divisor;
+    scale.shift = k->shift;
+    scale.bias = k->bias - (int32_t)more;
+    return scale;
 }
 
 pel_status pel_filter_pull(pel_filter *f, uint8_t *out)
 {
-    return f && out ? pull(f, out, NULL) : PEL_ERR_ARG;
+    const uint8_t *rows[5];
+    pel_row_scale scale;
+    uint16_t count;
+
+    if (!f || !out) {
+        return PEL_ERR_ARG;
+    }
+    if (f->config.op_s16 && !f->config.op) {
+        return PEL_ERR_FORMAT;
+    }
+    count = next_window(f, rows);
+    if (count == 0) {
+        return PEL_ERR_ORDER;
+    }
+    if (f->config.op) {
+        (void)f->config.op(rows, count, f->config.kernel, out);
+        return PEL_OK;
+    }
+    scale = scale_of(f->config.kernel);
+    if (f->radius == 1) {
+        pel_row_kernel3(rows, f->config.kernel->tap, &scale, count, out);
+    } else {
+        pel_row_kernel5(rows, f->config.kernel->tap, &scale, count, out);
+    }
+    return PEL_OK;
 }
 
 pel_status pel_filter_pull_s16(pel_filter *f, int16_t *out)
 {
+    const uint8_t *rows[5];
+    pel_row_scale scale;
+    uint16_t count;
+
     if (!f || !out) {
         return PEL_ERR_ARG;
     }
-    return f->state == STATE_ROWS && !gives_sums(f->config.op) ? PEL_ERR_FORMAT
-                                                               : pull(f, NULL, out);
+    if (f->config.op && !f->config.op_s16) {
+        return PEL_ERR_FORMAT;
+    }
+    count = next_window(f, rows);
+    if (count == 0) {
+        return PEL_ERR_ORDER;
+    }
+    if (f->config.op_s16) {
+        (void)f->config.op_s16(rows, count, f->config.kernel, out);
+        return PEL_OK;
+    }
+    scale = scale_of(f->config.kernel);
+    if (f->radius == 1) {
+        pel_row_kernel3_s16(rows, f->config.kernel->tap, &scale, count, out);
+    } else {
+        pel_row_kernel5_s16(rows, f->config.kernel->tap, &scale, count, out);
+    }
+    return PEL_OK;
 }

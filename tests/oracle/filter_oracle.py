@@ -21,6 +21,9 @@ import scipy.ndimage
 
 SCIPY_MODES = {"replicate": "nearest", "symmetric": "reflect", "reflect101": "mirror",
                "wrap": "wrap", "constant": "constant"}
+# Named kernels that have operators, and how these are called.
+OPERATORS = {"gauss3": "filter_u8", "box3": "filter_u8", "binomial5": "filter_u8",
+             "sobel_x": "filter_s16", "sobel_y": "filter_s16"}
 CV_BORDERS = {"replicate": cv2.BORDER_REPLICATE, "symmetric": cv2.BORDER_REFLECT,
               "reflect101": cv2.BORDER_REFLECT_101, "constant": cv2.BORDER_CONSTANT}
 
@@ -217,6 +220,11 @@ def compare_opencv_named(tally, pel, picture):
         for name, theirs in opencv_named(picture, flag).items():
             ours = pel.filter_s16(picture, "kernel", pel.named(name), border)
             tally.equal(f"OpenCV {name}", ours, theirs, f"{picture.shape} {border}")
+            run = OPERATORS.get(name)
+            if run:
+                tally.equal(f"OpenCV {name}, by its operator",
+                            getattr(pel, run)(picture, name, border=border), theirs,
+                            f"{picture.shape} {border}")
         sums = cv2.boxFilter(picture, cv2.CV_16S, (3, 3), normalize=False, borderType=flag)
         ours = pel.filter_s16(picture, "kernel", pel.kernel(np.ones((3, 3), int)), border)
         tally.equal("OpenCV boxFilter, sums", ours, sums, f"{picture.shape} {border}")

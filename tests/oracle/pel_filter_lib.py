@@ -8,19 +8,18 @@ import os
 import numpy as np
 
 BORDERS = ["replicate", "symmetric", "reflect101", "wrap", "constant", "valid"]
-OPS = ["kernel", "gradient_abs", "gradient", "direction", "median", "min", "max", "majority",
-       "erode_labels", "dilate_labels"]
 
 
 class Kernel(ctypes.Structure):
     _fields_ = [("tap", ctypes.c_int8 * 25), ("radius", ctypes.c_uint8),
                 ("divisor", ctypes.c_uint16), ("shift", ctypes.c_uint8),
-                ("absolute", ctypes.c_uint8), ("bias", ctypes.c_int16), ("fast", ctypes.c_uint8)]
+                ("absolute", ctypes.c_uint8), ("bias", ctypes.c_int16)]
 
 
 class Config(ctypes.Structure):
-    _fields_ = [("op", ctypes.c_int), ("kernel", ctypes.POINTER(Kernel)),
-                ("width", ctypes.c_uint16), ("height", ctypes.c_uint16),
+    _fields_ = [("op", ctypes.c_void_p), ("op_s16", ctypes.c_void_p),
+                ("kernel", ctypes.POINTER(Kernel)), ("width", ctypes.c_uint16),
+                ("height", ctypes.c_uint16),
                 ("border", ctypes.c_int), ("constant", ctypes.c_uint8),
                 ("last_rows", ctypes.c_void_p * 2), ("work", ctypes.c_void_p),
                 ("work_bytes", ctypes.c_size_t)]
@@ -28,7 +27,8 @@ class Config(ctypes.Structure):
 
 class View(ctypes.Structure):
     _fields_ = [("plane", ctypes.c_void_p * 3), ("stride_bytes", ctypes.c_int32 * 3),
-                ("width", ctypes.c_uint16), ("height", ctypes.c_uint16),
+                ("width", ctypes.c_uint16),
+                ("height", ctypes.c_uint16),
                 ("format", ctypes.c_int), ("range", ctypes.c_int)]
 
 
@@ -43,8 +43,15 @@ LIBRARY.pel_filter_frame.argtypes = [ctypes.POINTER(Config), ctypes.POINTER(View
                                      ctypes.POINTER(View)]
 LIBRARY.pel_filter_frame_s16.argtypes = [ctypes.POINTER(Config), ctypes.POINTER(View),
                                          ctypes.c_void_p, ctypes.c_int32]
-LIBRARY.pel_filter_twice.argtypes = [ctypes.POINTER(Config), ctypes.c_int, ctypes.c_int,
+LIBRARY.pel_filter_twice.argtypes = [ctypes.POINTER(Config), ctypes.c_void_p, ctypes.c_void_p,
                                      ctypes.POINTER(View), ctypes.POINTER(View)]
+
+
+def operator(name):
+    """The address of pel_op_NAME; none for the kernel."""
+    if name == "kernel":
+        return None
+    return ctypes.cast(getattr(LIBRARY, "pel_op_" + name), ctypes.c_void_p)
 
 
 def kernel(taps, divisor=1, shift=0, bias=0, absolute=False):
@@ -83,9 +90,8 @@ def _check(status, what):
         raise RuntimeError(f"{what} gave {status}")
 
 
-def _config(pixels, op, made, border, constant, work):
+def _config(made, border, constant, work):
     config = Config()
-    config.op = OPS.index(op)
     config.kernel = ctypes.pointer(made) if made is not None else None
     config.border = BORDERS.index(border)
     config.constant = constant
@@ -95,7 +101,7 @@ def _config(pixels, op, made, border, constant, work):
 
 
 def _room(pixels, op, made, border):
-    radius = made.radius if op == "kernel" else 1
+    radius = made.radius if op == "kernel" else 2 if op == "binomial5" else 1
     size = LIBRARY.pel_filter_bytes(pixels.shape[1], radius, BORDERS.index(border))
     lost = 2 * radius if border == "valid" else 0
     return np.zeros(size, np.uint8), (pixels.shape[0] - lost, pixels.shape[1] - lost)
@@ -104,7 +110,8 @@ def _room(pixels, op, made, border):
 def filter_u8(pixels, op, made=None, border="replicate", constant=0):
     work, shape = _room(pixels, op, made, border)
     result = np.zeros(shape, np.uint8)
-    config = _config(pixels, op, made, border, constant, work)
+    config = _config(made, border, constant, work)
+    config.op = operator(op)
     source, target = view_of(pixels), view_of(result)
     _check(LIBRARY.pel_filter_frame(config, source, target), "pel_filter_frame")
     return result
@@ -113,7 +120,8 @@ def filter_u8(pixels, op, made=None, border="replicate", constant=0):
 def filter_s16(pixels, op, made=None, border="replicate", constant=0):
     work, shape = _room(pixels, op, made, border)
     result = np.zeros(shape, np.int16)
-    config = _config(pixels, op, made, border, constant, work)
+    config = _config(made, border, constant, work)
+    config.op_s16 = operator(op if op == "kernel" else op + "_s16")
     _check(LIBRARY.pel_filter_frame_s16(config, view_of(pixels), result.ctypes.data, shape[1]),
            "pel_filter_frame_s16")
     return result
@@ -121,9 +129,9 @@ def filter_s16(pixels, op, made=None, border="replicate", constant=0):
 
 def twice(pixels, first, second, border="replicate", constant=0):
     width = pixels.shape[1]
-    work = np.zeros(2 * 3 * (width + 2) + width, np.uint8)
+    work = np.zeros(3 * (width + 2), np.uint8)
     result = np.zeros_like(pixels)
-    config = _config(pixels, first, None, border, constant, work)
-    _check(LIBRARY.pel_filter_twice(config, OPS.index(first), OPS.index(second), view_of(pixels),
+    config = _config(None, border, constant, work)
+    _check(LIBRARY.pel_filter_twice(config, operator(first), operator(second), view_of(pixels),
                                     view_of(result)), "pel_filter_twice")
     return result

@@ -41,9 +41,64 @@ static uint8_t pixel_at(const pel_filter_config *config, const ref_picture *pict
     return picture->pixels[row * picture->width + column];
 }
 
+/* ---- Operators ----------------------------------------------------------------------------- */
+
+static const struct {
+    const char *name;
+    pel_filter_op *bytes;
+    pel_filter_op_s16 *words;
+} ops[REF_OPS] = {
+    {"kernel", NULL, NULL},
+    {"gradient_abs", pel_op_gradient_abs, pel_op_gradient_abs_s16},
+    {"gradient", pel_op_gradient, pel_op_gradient_s16},
+    {"direction", pel_op_direction, NULL},
+    {"median", pel_op_median, NULL},
+    {"min", pel_op_min, NULL},
+    {"max", pel_op_max, NULL},
+    {"majority", pel_op_majority, NULL},
+    {"erode_labels", pel_op_erode_labels, NULL},
+    {"dilate_labels", pel_op_dilate_labels, NULL},
+    {"gauss3", pel_op_gauss3, NULL},
+    {"box3", pel_op_box3, NULL},
+    {"binomial5", pel_op_binomial5, NULL},
+    {"sobel_x", NULL, pel_op_sobel_x_s16},
+    {"sobel_y", NULL, pel_op_sobel_y_s16},
+};
+
+void ref_set_op(pel_filter_config *config, ref_op op)
+{
+    config->op = ops[op].bytes;
+    config->op_s16 = ops[op].words;
+}
+
+ref_op ref_op_of(const pel_filter_config *config)
+{
+    int op = REF_OPS - 1;
+    while (op > 0 && (ops[op].bytes != config->op || ops[op].words != config->op_s16)) {
+        op--;
+    }
+    return (ref_op)op;
+}
+
+const char *ref_op_name(ref_op op)
+{
+    return ops[op].name;
+}
+
+int ref_has_bytes(const pel_filter_config *config)
+{
+    return config->op != NULL || config->op_s16 == NULL;
+}
+
+int ref_has_words(const pel_filter_config *config)
+{
+    return config->op_s16 != NULL || config->op == NULL;
+}
+
 unsigned ref_radius(const pel_filter_config *config)
 {
-    return config->op == PEL_FILTER_KERNEL ? config->kernel->radius : 1;
+    const ref_op op = ref_op_of(config);
+    return op == REF_KERNEL ? config->kernel->radius : op == REF_BINOMIAL5 ? 2 : 1;
 }
 
 static uint16_t side_of(const pel_filter_config *config, uint16_t side)
@@ -181,40 +236,55 @@ static int64_t dilated_label(uint8_t own, const uint8_t *sorted)
 
 /* ---- Results ------------------------------------------------------------------------------- */
 
+static const pel_kernel gauss3 = {{1, 2, 1, 2, 4, 2, 1, 2, 1}, 1, 16, 0, 0, 0};
+static const pel_kernel box3 = {{1, 1, 1, 1, 1, 1, 1, 1, 1}, 1, 9, 0, 0, 0};
+static const pel_kernel binomial5 = {
+    {1, 4, 6, 4, 1, 4, 16, 24, 16, 4, 6, 24, 36, 24, 6, 4, 16, 24, 16, 4, 1, 4, 6, 4, 1},
+    2,
+    256,
+    0,
+    0,
+    0};
+
 static int64_t result_of(const pel_filter_config *config, const uint8_t *around)
 {
     const gradient g = gradient_of(around);
     uint8_t sorted[9];
     sort9(around, sorted);
-    switch (config->op) {
-    case PEL_FILTER_KERNEL:
+    switch (ref_op_of(config)) {
+    case REF_KERNEL:
         return kernel_result(config->kernel, around);
-    case PEL_FILTER_GRADIENT_ABS:
+    case REF_GRADIENT_ABS:
         return llabs(g.x) + llabs(g.y);
-    case PEL_FILTER_GRADIENT:
+    case REF_GRADIENT:
         return length_of(g);
-    case PEL_FILTER_DIRECTION:
+    case REF_DIRECTION:
         return direction_of(g);
-    case PEL_FILTER_MEDIAN:
+    case REF_MEDIAN:
         return sorted[4];
-    case PEL_FILTER_MIN:
+    case REF_MIN:
         return sorted[0];
-    case PEL_FILTER_MAX:
+    case REF_MAX:
         return sorted[8];
-    case PEL_FILTER_MAJORITY:
+    case REF_MAJORITY:
         return majority_of(around);
-    case PEL_FILTER_ERODE_LABELS:
+    case REF_ERODE_LABELS:
         return eroded_label(sorted);
-    case PEL_FILTER_DILATE_LABELS:
+    case REF_DILATE_LABELS:
         return dilated_label(around[4], sorted);
+    case REF_GAUSS3:
+        return kernel_result(&gauss3, around);
+    case REF_BOX3:
+        return kernel_result(&box3, around);
+    case REF_BINOMIAL5:
+        return kernel_result(&binomial5, around);
+    case REF_SOBEL_X:
+        return g.x;
+    case REF_SOBEL_Y:
+        return g.y;
     default:
         return -1;
     }
-}
-
-int ref_is_signed(pel_filter_op op)
-{
-    return op == PEL_FILTER_KERNEL || op == PEL_FILTER_GRADIENT_ABS || op == PEL_FILTER_GRADIENT;
 }
 
 int64_t ref_result(const pel_filter_config *config, const ref_picture *picture, uint16_t x,

@@ -25,12 +25,38 @@ unsigned ref_radius(const pel_filter_config *config);
 uint16_t ref_width(const pel_filter_config *config, const ref_picture *picture);
 uint16_t ref_height(const pel_filter_config *config, const ref_picture *picture);
 
-/* Whether an operator has 16-bit results. */
-int ref_is_signed(pel_filter_op op);
+/* What the library has under pel_op_...; some in 8 bits, some in 16, some in both. */
+typedef enum ref_op {
+    REF_KERNEL,
+    REF_GRADIENT_ABS,
+    REF_GRADIENT,
+    REF_DIRECTION,
+    REF_MEDIAN,
+    REF_MIN,
+    REF_MAX,
+    REF_MAJORITY,
+    REF_ERODE_LABELS,
+    REF_DILATE_LABELS,
+    REF_GAUSS3,
+    REF_BOX3,
+    REF_BINOMIAL5,
+    REF_SOBEL_X,
+    REF_SOBEL_Y,
+    REF_OPS
+} ref_op;
+
+/* Puts the functions of an operator into a config, and says which one is in there. */
+void ref_set_op(pel_filter_config *config, ref_op op);
+ref_op ref_op_of(const pel_filter_config *config);
+const char *ref_op_name(ref_op op);
+
+/* Which results a config has. */
+int ref_has_bytes(const pel_filter_config *config);
+int ref_has_words(const pel_filter_config *config);
 
 /*
- * The result at (x, y) of the result picture, not yet limited to 8 or 16 bits. Of a config only op,
- * kernel, border and constant are looked at.
+ * The result at (x, y) of the result picture, not yet limited to 8 or 16 bits. Of a config only the
+ * operator, kernel, border and constant are looked at.
  */
 int64_t ref_result(const pel_filter_config *config, const ref_picture *picture, uint16_t x,
                    uint16_t y);

@@ -36,9 +36,10 @@ void verify_frame_u8(const filter_trial *trial, const uint8_t *expected, layout 
 void verify_frame_s16(const filter_trial *trial, const int16_t *expected, layout from, layout to);
 void verify_frame_in_place(const filter_trial *trial, const uint8_t *expected, layout both);
 
-/* pel_filter_twice, into another picture or in place. The op of the config is not looked at. */
-void verify_twice(const filter_trial *trial, pel_filter_op first, pel_filter_op second, layout from,
-                  layout to, int in_place);
+/* pel_filter_twice, into another picture or in place. The trial's own operator is not looked at but
+ * for the working memory. */
+void verify_twice(const filter_trial *trial, ref_op first, ref_op second, layout from, layout to,
+                  int in_place);
 
 /* All of the above but the last, with layouts drawn from `random`. */
 void verify_all(const filter_trial *trial, rng *random);

@@ -54,7 +54,7 @@ static void expect_guards(size_t work_bytes, size_t out_bytes)
     expect_untouched(out + out_bytes, sizeof out_room - GUARD - out_bytes);
 }
 
-static pel_filter_config config_of(pel_filter_op op, const char *kernel, pel_border border)
+static pel_filter_config config_of(pel_filter_op *op, const char *kernel, pel_border border)
 {
     pel_filter_config config = {0};
     const unsigned radius = kernel == NULL ? 1 : pel_kernel_named(kernel)->radius;
@@ -74,7 +74,7 @@ static pel_filter_config config_of(pel_filter_op op, const char *kernel, pel_bor
 
 static pel_filter_config kernel_config(const char *kernel)
 {
-    return config_of(PEL_FILTER_KERNEL, kernel, PEL_BORDER_REPLICATE);
+    return config_of(NULL, kernel, PEL_BORDER_REPLICATE);
 }
 
 #endif

@@ -20,10 +20,9 @@ void tearDown(void)
 
 /* ---- One neighbourhood --------------------------------------------------------------------- */
 
-static pel_filter_config valid_config(pel_filter_op op, const pel_kernel *kernel)
+static pel_filter_config valid_config(const pel_kernel *kernel)
 {
     pel_filter_config config = {0};
-    config.op = op;
     config.kernel = kernel;
     config.border = PEL_BORDER_VALID;
     config.work = work;
@@ -40,24 +39,19 @@ static pel_cview square_view(const uint8_t *pixels, unsigned radius)
     return view;
 }
 
-static unsigned radius_of(pel_filter_op op, const pel_kernel *kernel)
+static int16_t one_s16(const pel_kernel *kernel, const uint8_t *pixels)
 {
-    return op == PEL_FILTER_KERNEL ? kernel->radius : 1;
-}
-
-static int16_t one_s16(pel_filter_op op, const pel_kernel *kernel, const uint8_t *pixels)
-{
-    const pel_filter_config config = valid_config(op, kernel);
-    const pel_cview view = square_view(pixels, radius_of(op, kernel));
+    const pel_filter_config config = valid_config(kernel);
+    const pel_cview view = square_view(pixels, kernel->radius);
     int16_t result = 12345;
     TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_frame_s16(&config, &view, &result, 1));
     return result;
 }
 
-static uint8_t one_u8(pel_filter_op op, const pel_kernel *kernel, const uint8_t *pixels)
+static uint8_t one_u8(const pel_kernel *kernel, const uint8_t *pixels)
 {
-    const pel_filter_config config = valid_config(op, kernel);
-    const pel_cview view = square_view(pixels, radius_of(op, kernel));
+    const pel_filter_config config = valid_config(kernel);
+    const pel_cview view = square_view(pixels, kernel->radius);
     uint8_t result = 123;
     pel_view target;
     TEST_ASSERT_EQUAL_INT(PEL_OK,
@@ -178,7 +172,7 @@ static void test_a_flipped_kernel_is_turned_by_half_a_turn(void)
 
 static void test_flipping_keeps_division_bias_and_absolute(void)
 {
-    pel_kernel kernel = {{1, 2, 3, 4, 5, 6, 7, 8, -128}, 1, 77, 3, 1, -300, 0};
+    pel_kernel kernel = {{1, 2, 3, 4, 5, 6, 7, 8, -128}, 1, 77, 3, 1, -300};
     const pel_kernel flipped = pel_kernel_flipped(&kernel);
     static const int8_t turned[9] = {-128, 8, 7, 6, 5, 4, 3, 2, 1};
     TEST_ASSERT_EQUAL_INT8_ARRAY(turned, flipped.tap, 9);
@@ -195,16 +189,16 @@ static void test_a_changed_copy_of_a_named_kernel(void)
     pel_kernel gauss = *pel_kernel_named("gauss3");
     pel_kernel sobel = *pel_kernel_named("sobel_x");
     gauss.bias = 5; /* the sum: 10 + 40 + 30 + 80 + 200 + 120 + 70 + 160 + 200 = 910 */
-    TEST_ASSERT_EQUAL_UINT8(57 + 5, one_u8(PEL_FILTER_KERNEL, &gauss, pixels));
+    TEST_ASSERT_EQUAL_UINT8(57 + 5, one_u8(&gauss, pixels));
     gauss.shift = 0;
     gauss.divisor = 7;
     gauss.bias = 0;
-    TEST_ASSERT_EQUAL_UINT8(130, one_u8(PEL_FILTER_KERNEL, &gauss, pixels));
+    TEST_ASSERT_EQUAL_UINT8(130, one_u8(&gauss, pixels));
     sobel = pel_kernel_flipped(&sobel); /* -(30 - 10 + 2 (60 - 40) + 200 - 70) = -190 */
-    TEST_ASSERT_EQUAL_INT16(-190, one_s16(PEL_FILTER_KERNEL, &sobel, pixels));
+    TEST_ASSERT_EQUAL_INT16(-190, one_s16(&sobel, pixels));
     sobel.absolute = 1;
-    TEST_ASSERT_EQUAL_INT16(190, one_s16(PEL_FILTER_KERNEL, &sobel, pixels));
-    TEST_ASSERT_EQUAL_UINT8(190, one_u8(PEL_FILTER_KERNEL, &sobel, pixels));
+    TEST_ASSERT_EQUAL_INT16(190, one_s16(&sobel, pixels));
+    TEST_ASSERT_EQUAL_UINT8(190, one_u8(&sobel, pixels));
 }
 
 /* ---- Moving the picture -------------------------------------------------------------------- */
@@ -213,7 +207,7 @@ static const uint8_t numbers[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
 
 static void expect_moved(const pel_kernel *kernel, pel_border border, const uint8_t *expected)
 {
-    pel_filter_config config = valid_config(PEL_FILTER_KERNEL, kernel);
+    pel_filter_config config = valid_config(kernel);
     const pel_cview source = square_view(numbers, 1);
     uint8_t results[9];
     pel_view target;
@@ -271,7 +265,7 @@ static void test_two_pixels_to_the_right(void)
     static const uint8_t reflect101[9] = {3, 2, 1, 6, 5, 4, 9, 8, 7};
     static const uint8_t wrap[9] = {2, 3, 1, 5, 6, 4, 8, 9, 7};
     static const uint8_t zero[9] = {0, 0, 1, 0, 0, 4, 0, 0, 7};
-    pel_kernel kernel = {{0}, 2, 0, 0, 0, 0, 0};
+    pel_kernel kernel = {{0}, 2, 0, 0, 0, 0};
     kernel.tap[2 * 5] = 1;
     expect_moved(&kernel, PEL_BORDER_REPLICATE, replicate);
     expect_moved(&kernel, PEL_BORDER_SYMMETRIC, symmetric);
@@ -287,7 +281,7 @@ static void test_two_pixels_down(void)
     static const uint8_t reflect101[9] = {7, 8, 9, 4, 5, 6, 1, 2, 3};
     static const uint8_t wrap[9] = {4, 5, 6, 7, 8, 9, 1, 2, 3};
     static const uint8_t zero[9] = {0, 0, 0, 0, 0, 0, 1, 2, 3};
-    pel_kernel kernel = {{0}, 2, 0, 0, 0, 0, 0};
+    pel_kernel kernel = {{0}, 2, 0, 0, 0, 0};
     kernel.tap[2] = 1;
     expect_moved(&kernel, PEL_BORDER_REPLICATE, replicate);
     expect_moved(&kernel, PEL_BORDER_SYMMETRIC, symmetric);
@@ -306,10 +300,10 @@ static void test_a_5x5_kernel_on_a_single_pixel(void)
     }
     kernel.radius = 2;
     kernel.divisor = 1;
-    kernel.shift = kernel.absolute = kernel.fast = 0;
+    kernel.shift = kernel.absolute = 0;
     kernel.bias = 0;
     for (int border = 0; border < PEL_BORDER_VALID; border++) {
-        pel_filter_config config = valid_config(PEL_FILTER_KERNEL, &kernel);
+        pel_filter_config config = valid_config(&kernel);
         uint8_t pixel = 1;
         pel_view view;
         pel_cview source;
@@ -328,7 +322,7 @@ static void test_a_5x5_kernel_on_a_single_pixel(void)
 /* A kernel that multiplies by one number, and the result at a pixel of one value. */
 static pel_kernel times(int8_t factor, uint16_t divisor, uint8_t shift)
 {
-    pel_kernel kernel = {{0}, 1, 0, 0, 0, 0, 0};
+    pel_kernel kernel = {{0}, 1, 0, 0, 0, 0};
     kernel.tap[4] = factor;
     kernel.divisor = divisor;
     kernel.shift = shift;
@@ -339,14 +333,14 @@ static int16_t scaled_s16(const pel_kernel *kernel, uint8_t value)
 {
     uint8_t pixels[9] = {0};
     pixels[4] = value;
-    return one_s16(PEL_FILTER_KERNEL, kernel, pixels);
+    return one_s16(kernel, pixels);
 }
 
 static uint8_t scaled_u8(const pel_kernel *kernel, uint8_t value)
 {
     uint8_t pixels[9] = {0};
     pixels[4] = value;
-    return one_u8(PEL_FILTER_KERNEL, kernel, pixels);
+    return one_u8(kernel, pixels);
 }
 
 static void test_halves_are_rounded_upward(void)
@@ -437,16 +431,15 @@ static void test_a_signed_result_around_128(void)
     pel_kernel kernel = *pel_kernel_named("sobel_x");
     kernel.shift = 3;
     kernel.bias = 128;
-    kernel.fast = 0;
-    TEST_ASSERT_EQUAL_UINT8(255, one_u8(PEL_FILTER_KERNEL, &kernel, rising));
-    TEST_ASSERT_EQUAL_UINT8(1, one_u8(PEL_FILTER_KERNEL, &kernel, falling));
+    TEST_ASSERT_EQUAL_UINT8(255, one_u8(&kernel, rising));
+    TEST_ASSERT_EQUAL_UINT8(1, one_u8(&kernel, falling));
 }
 
 /* ---- The largest sums ---------------------------------------------------------------------- */
 
 static pel_kernel flat(int8_t even, int8_t odd, uint8_t radius, uint16_t divisor)
 {
-    pel_kernel kernel = {{0}, 1, 0, 0, 0, 0, 0};
+    pel_kernel kernel = {{0}, 1, 0, 0, 0, 0};
     kernel.radius = radius;
     kernel.divisor = divisor;
     for (unsigned k = 0; k < 25; k++) {
@@ -470,19 +463,19 @@ static void test_all_taps_at_their_least_on_white(void)
         pel_kernel kernel = flat(-128, -128, radius, divisor);
         uint8_t white[25];
         fill(white, 255, 255);
-        TEST_ASSERT_EQUAL_INT16(-32640, one_s16(PEL_FILTER_KERNEL, &kernel, white));
-        TEST_ASSERT_EQUAL_UINT8(0, one_u8(PEL_FILTER_KERNEL, &kernel, white));
+        TEST_ASSERT_EQUAL_INT16(-32640, one_s16(&kernel, white));
+        TEST_ASSERT_EQUAL_UINT8(0, one_u8(&kernel, white));
         kernel.bias = -128;
-        TEST_ASSERT_EQUAL_INT16(-32768, one_s16(PEL_FILTER_KERNEL, &kernel, white));
+        TEST_ASSERT_EQUAL_INT16(-32768, one_s16(&kernel, white));
         kernel.bias = -129;
-        TEST_ASSERT_EQUAL_INT16(-32768, one_s16(PEL_FILTER_KERNEL, &kernel, white));
+        TEST_ASSERT_EQUAL_INT16(-32768, one_s16(&kernel, white));
         kernel.bias = 32767;
-        TEST_ASSERT_EQUAL_INT16(127, one_s16(PEL_FILTER_KERNEL, &kernel, white));
-        TEST_ASSERT_EQUAL_UINT8(127, one_u8(PEL_FILTER_KERNEL, &kernel, white));
+        TEST_ASSERT_EQUAL_INT16(127, one_s16(&kernel, white));
+        TEST_ASSERT_EQUAL_UINT8(127, one_u8(&kernel, white));
         kernel.bias = 0;
         kernel.absolute = 1;
-        TEST_ASSERT_EQUAL_INT16(32640, one_s16(PEL_FILTER_KERNEL, &kernel, white));
-        TEST_ASSERT_EQUAL_UINT8(255, one_u8(PEL_FILTER_KERNEL, &kernel, white));
+        TEST_ASSERT_EQUAL_INT16(32640, one_s16(&kernel, white));
+        TEST_ASSERT_EQUAL_UINT8(255, one_u8(&kernel, white));
     }
 }
 
@@ -493,14 +486,14 @@ static void test_all_taps_at_their_most_on_white(void)
         pel_kernel kernel = flat(127, 127, radius, radius == 1 ? 9 : 25);
         uint8_t white[25];
         fill(white, 255, 255);
-        TEST_ASSERT_EQUAL_INT16(32385, one_s16(PEL_FILTER_KERNEL, &kernel, white));
-        TEST_ASSERT_EQUAL_UINT8(255, one_u8(PEL_FILTER_KERNEL, &kernel, white));
+        TEST_ASSERT_EQUAL_INT16(32385, one_s16(&kernel, white));
+        TEST_ASSERT_EQUAL_UINT8(255, one_u8(&kernel, white));
         kernel.bias = 382;
-        TEST_ASSERT_EQUAL_INT16(32767, one_s16(PEL_FILTER_KERNEL, &kernel, white));
+        TEST_ASSERT_EQUAL_INT16(32767, one_s16(&kernel, white));
         kernel.bias = 383;
-        TEST_ASSERT_EQUAL_INT16(32767, one_s16(PEL_FILTER_KERNEL, &kernel, white));
+        TEST_ASSERT_EQUAL_INT16(32767, one_s16(&kernel, white));
         kernel.bias = -32768;
-        TEST_ASSERT_EQUAL_INT16(-383, one_s16(PEL_FILTER_KERNEL, &kernel, white));
+        TEST_ASSERT_EQUAL_INT16(-383, one_s16(&kernel, white));
     }
 }
 
@@ -510,12 +503,12 @@ static void test_undivided_sums_are_limited_to_16_bits(void)
     fill(white, 255, 255);
     for (uint8_t radius = 1; radius <= 2; radius++) {
         pel_kernel least = flat(-128, -128, radius, 1), most = flat(127, 127, radius, 0);
-        TEST_ASSERT_EQUAL_INT16(-32768, one_s16(PEL_FILTER_KERNEL, &least, white));
-        TEST_ASSERT_EQUAL_INT16(32767, one_s16(PEL_FILTER_KERNEL, &most, white));
+        TEST_ASSERT_EQUAL_INT16(-32768, one_s16(&least, white));
+        TEST_ASSERT_EQUAL_INT16(32767, one_s16(&most, white));
         least.absolute = 1;
-        TEST_ASSERT_EQUAL_INT16(32767, one_s16(PEL_FILTER_KERNEL, &least, white));
+        TEST_ASSERT_EQUAL_INT16(32767, one_s16(&least, white));
         most.bias = -32768;
-        TEST_ASSERT_EQUAL_INT16(32767, one_s16(PEL_FILTER_KERNEL, &most, white));
+        TEST_ASSERT_EQUAL_INT16(32767, one_s16(&most, white));
     }
 }
 
@@ -527,12 +520,12 @@ static void test_alternating_taps(void)
     fill(even, 255, 0);
     fill(odd, 0, 255);
     fill(white, 255, 255);
-    TEST_ASSERT_EQUAL_INT16(32385, one_s16(PEL_FILTER_KERNEL, &small, even)); /* 161925 / 5 */
-    TEST_ASSERT_EQUAL_INT16(-26112, one_s16(PEL_FILTER_KERNEL, &small, odd)); /* -130560 / 5 */
-    TEST_ASSERT_EQUAL_INT16(6273, one_s16(PEL_FILTER_KERNEL, &small, white)); /* 31365 / 5 */
-    TEST_ASSERT_EQUAL_INT16(32385, one_s16(PEL_FILTER_KERNEL, &large, even)); /* 421005 / 13 */
-    TEST_ASSERT_EQUAL_INT16(-30129, one_s16(PEL_FILTER_KERNEL, &large, odd)); /* -391680 / 13 */
-    TEST_ASSERT_EQUAL_INT16(2256, one_s16(PEL_FILTER_KERNEL, &large, white)); /* 29325 / 13 */
+    TEST_ASSERT_EQUAL_INT16(32385, one_s16(&small, even)); /* 161925 / 5 */
+    TEST_ASSERT_EQUAL_INT16(-26112, one_s16(&small, odd)); /* -130560 / 5 */
+    TEST_ASSERT_EQUAL_INT16(6273, one_s16(&small, white)); /* 31365 / 5 */
+    TEST_ASSERT_EQUAL_INT16(32385, one_s16(&large, even)); /* 421005 / 13 */
+    TEST_ASSERT_EQUAL_INT16(-30129, one_s16(&large, odd)); /* -391680 / 13 */
+    TEST_ASSERT_EQUAL_INT16(2256, one_s16(&large, white)); /* 29325 / 13 */
 }
 
 static void test_the_largest_division(void)
@@ -540,13 +533,13 @@ static void test_the_largest_division(void)
     pel_kernel kernel = flat(-128, -128, 2, 32767);
     uint8_t white[25];
     fill(white, 255, 255);
-    TEST_ASSERT_EQUAL_INT16(-25, one_s16(PEL_FILTER_KERNEL, &kernel, white)); /* -24.903 */
+    TEST_ASSERT_EQUAL_INT16(-25, one_s16(&kernel, white)); /* -24.903 */
     kernel.shift = 5;
-    TEST_ASSERT_EQUAL_INT16(-1, one_s16(PEL_FILTER_KERNEL, &kernel, white)); /* -0.778 */
+    TEST_ASSERT_EQUAL_INT16(-1, one_s16(&kernel, white)); /* -0.778 */
     kernel.shift = 15;
-    TEST_ASSERT_EQUAL_INT16(0, one_s16(PEL_FILTER_KERNEL, &kernel, white));
+    TEST_ASSERT_EQUAL_INT16(0, one_s16(&kernel, white));
     kernel.divisor = 0;
-    TEST_ASSERT_EQUAL_INT16(-25, one_s16(PEL_FILTER_KERNEL, &kernel, white)); /* -24.902 */
+    TEST_ASSERT_EQUAL_INT16(-25, one_s16(&kernel, white)); /* -24.902 */
 }
 
 int main(void)

@@ -37,7 +37,6 @@ static void test_bytes_are_rows_with_pixels_on_either_side(void)
     TEST_ASSERT_EQUAL_UINT32(4 * 12, (uint32_t)pel_filter_bytes(10, 1, PEL_BORDER_WRAP));
     TEST_ASSERT_EQUAL_UINT32(5 * 14, (uint32_t)pel_filter_bytes(10, 2, PEL_BORDER_CONSTANT));
     TEST_ASSERT_EQUAL_UINT32(7 * 14, (uint32_t)pel_filter_bytes(10, 2, PEL_BORDER_WRAP));
-    TEST_ASSERT_EQUAL_UINT32(2 * 36 + 10, (uint32_t)PEL_FILTER_TWICE_BYTES(10));
 }
 
 static void test_size_of_the_result(void)
@@ -51,7 +50,7 @@ static void test_size_of_the_result(void)
     config.border = PEL_BORDER_VALID;
     TEST_ASSERT_EQUAL_UINT16(WIDTH - 4, pel_filter_width(&config));
     TEST_ASSERT_EQUAL_UINT16(HEIGHT - 4, pel_filter_height(&config));
-    config.op = PEL_FILTER_MEDIAN; /* 3x3, whatever the kernel */
+    config.op = pel_op_median; /* 3x3, whatever the kernel */
     TEST_ASSERT_EQUAL_UINT16(WIDTH - 2, pel_filter_width(&config));
     TEST_ASSERT_EQUAL_UINT16(HEIGHT - 2, pel_filter_height(&config));
 }
@@ -79,12 +78,14 @@ static void expect_begin(pel_status expected, const pel_filter_config *config)
 
 static void test_begin_accepts_what_it_should(void)
 {
-    for (int op = 0; op < PEL_FILTER_OP_COUNT; op++) {
+    static pel_filter_op *const ops[] = {NULL, pel_op_median, pel_op_gradient};
+    for (unsigned i = 0; i < 3; i++) {
         for (int border = 0; border <= PEL_BORDER_VALID; border++) {
-            const pel_filter_config config =
-                config_of((pel_filter_op)op, "sobel_x", (pel_border)border);
+            pel_filter_config config = config_of(ops[i], "sobel_x", (pel_border)border);
             expect_begin(PEL_OK, &config);
             expect_guards(config.work_bytes, 0);
+            config.op_s16 = pel_op_gradient_s16;
+            expect_begin(PEL_OK, &config);
         }
     }
 }
@@ -100,17 +101,55 @@ static void test_begin_refuses_null_pointers(void)
     config = kernel_config("box3");
     config.kernel = NULL;
     expect_begin(PEL_ERR_ARG, &config);
-    config.op = PEL_FILTER_MEDIAN;
+    config.op = pel_op_median;
     expect_begin(PEL_OK, &config);
 }
 
-static void test_begin_refuses_unknown_operators_and_borders(void)
+/* Operators that give their kernel's divisor for their radius. */
+static unsigned any_radius(const uint8_t *const rows[], uint16_t count, const pel_kernel *kernel,
+                           uint8_t *bytes)
+{
+    (void)rows, (void)count, (void)bytes;
+    return kernel->divisor;
+}
+
+static unsigned any_radius_s16(const uint8_t *const rows[], uint16_t count,
+                               const pel_kernel *kernel, int16_t *words)
+{
+    (void)rows, (void)count, (void)words;
+    return kernel->divisor;
+}
+
+static void expect_begin_with(pel_status expected, pel_filter_config *config, pel_filter_op *op,
+                              pel_filter_op_s16 *op_s16)
+{
+    config->op = op;
+    config->op_s16 = op_s16;
+    setUp();
+    expect_begin(expected, config);
+}
+
+static void test_begin_refuses_radii_that_it_cannot_do(void)
+{
+    pel_kernel kernel = {{0}, 1, 1, 0, 0, 0};
+    pel_filter_config config = kernel_config("binomial5"); /* memory for radius 2 */
+    config.kernel = &kernel;
+    for (uint16_t radius = 0; radius <= 4; radius++) {
+        const pel_status expected = radius == 1 || radius == 2 ? PEL_OK : PEL_ERR_ARG;
+        kernel.divisor = radius;
+        expect_begin_with(expected, &config, any_radius, NULL);
+        expect_begin_with(expected, &config, NULL, any_radius_s16);
+        expect_begin_with(expected, &config, any_radius, any_radius_s16);
+        expect_begin_with(radius == 2 ? PEL_OK : PEL_ERR_ARG, &config, pel_op_binomial5,
+                          any_radius_s16);
+        expect_begin_with(radius == 1 ? PEL_OK : PEL_ERR_ARG, &config, any_radius,
+                          pel_op_gradient_s16);
+    }
+}
+
+static void test_begin_refuses_unknown_borders(void)
 {
     pel_filter_config config = kernel_config("box3");
-    config.op = PEL_FILTER_OP_COUNT;
-    expect_begin(PEL_ERR_ARG, &config);
-    config.op = (pel_filter_op)-1;
-    expect_begin(PEL_ERR_ARG, &config);
     config = kernel_config("box3");
     config.border = (pel_border)(PEL_BORDER_VALID + 1);
     expect_begin(PEL_ERR_ARG, &config);
@@ -124,7 +163,6 @@ static void test_begin_refuses_kernels_out_of_range(void)
     pel_kernel kernel = *config.kernel;
     config.work_bytes = sizeof work_room - 2 * (size_t)GUARD;
     config.kernel = &kernel;
-    kernel.fast = 0;
     expect_begin(PEL_OK, &config);
     setUp();
     kernel.radius = 0;
@@ -150,15 +188,15 @@ static void test_begin_refuses_kernels_out_of_range(void)
 
 static void test_begin_refuses_wrap_without_the_last_rows(void)
 {
-    pel_filter_config config = config_of(PEL_FILTER_KERNEL, "box3", PEL_BORDER_WRAP);
+    pel_filter_config config = config_of(NULL, "box3", PEL_BORDER_WRAP);
     expect_begin(PEL_OK, &config); /* radius 1 needs one row */
     setUp();
     config.last_rows[0] = NULL;
     expect_begin(PEL_ERR_ARG, &config);
-    config = config_of(PEL_FILTER_KERNEL, "gauss5", PEL_BORDER_WRAP);
+    config = config_of(NULL, "gauss5", PEL_BORDER_WRAP);
     config.last_rows[1] = NULL;
     expect_begin(PEL_ERR_ARG, &config);
-    config = config_of(PEL_FILTER_KERNEL, "gauss5", PEL_BORDER_WRAP);
+    config = config_of(NULL, "gauss5", PEL_BORDER_WRAP);
     config.last_rows[0] = NULL;
     expect_begin(PEL_ERR_ARG, &config);
 }
@@ -166,7 +204,7 @@ static void test_begin_refuses_wrap_without_the_last_rows(void)
 static void expect_size(pel_status expected, const char *kernel, pel_border border, uint16_t width,
                         uint16_t height)
 {
-    pel_filter_config config = config_of(PEL_FILTER_KERNEL, kernel, border);
+    pel_filter_config config = config_of(NULL, kernel, border);
     config.width = width;
     config.height = height;
     config.work_bytes = SIZE_MAX; /* larger than it is: no size is refused for want of memory */
@@ -199,7 +237,7 @@ static void test_begin_refuses_too_little_memory(void)
     static const char *const names[] = {"box3", "gauss5"};
     for (unsigned i = 0; i < 2; i++) {
         for (int border = 0; border <= PEL_BORDER_VALID; border++) {
-            pel_filter_config config = config_of(PEL_FILTER_KERNEL, names[i], (pel_border)border);
+            pel_filter_config config = config_of(NULL, names[i], (pel_border)border);
             setUp();
             config.work_bytes--;
             expect_begin(PEL_ERR_SPACE, &config);
@@ -253,7 +291,7 @@ static void test_rows_come_one_behind_and_two_at_the_end(void)
 /* How many rows become ready with each push. */
 static void expect_schedule(const char *kernel, pel_border border, const uint8_t *ready)
 {
-    const pel_filter_config config = config_of(PEL_FILTER_KERNEL, kernel, border);
+    const pel_filter_config config = config_of(NULL, kernel, border);
     pel_filter filter;
     TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_begin(&filter, &config));
     for (unsigned y = 0; y < HEIGHT; y++) {
@@ -316,28 +354,35 @@ static void test_a_new_begin_forgets_the_old_picture(void)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(picture + 2 * WIDTH, out, WIDTH);
 }
 
-static int is_signed(pel_filter_op op)
+/* Which of the two pulls a config allows. */
+static void expect_pulls(const pel_filter_config *config, int in_bytes, int in_words)
 {
-    return op == PEL_FILTER_KERNEL || op == PEL_FILTER_GRADIENT_ABS || op == PEL_FILTER_GRADIENT;
+    pel_filter filter;
+    setUp();
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_begin(&filter, config));
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture));
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture + WIDTH));
+    if (!in_bytes) {
+        expect_pull(PEL_ERR_FORMAT, &filter);
+        TEST_ASSERT_EQUAL_UINT16(0, filter.row);
+    }
+    TEST_ASSERT_EQUAL_INT(in_words ? PEL_OK : PEL_ERR_FORMAT,
+                          pel_filter_pull_s16(&filter, out_s16));
+    TEST_ASSERT_EQUAL_INT16(CANARY, out_s16[in_words ? WIDTH : 0]);
+    TEST_ASSERT_EQUAL_UINT16(in_words ? 1 : 0, filter.row);
+    expect_pull(!in_bytes ? PEL_ERR_FORMAT : in_words ? PEL_ERR_ORDER : PEL_OK, &filter);
 }
 
-static void test_sixteen_bits_are_for_kernels_and_gradients(void)
+static void test_results_come_in_the_form_that_was_asked_for(void)
 {
-    for (int i = 0; i < PEL_FILTER_OP_COUNT; i++) {
-        const pel_filter_op op = (pel_filter_op)i;
-        const pel_filter_config config = config_of(op, "sobel_x", PEL_BORDER_REPLICATE);
-        const pel_status expected = is_signed(op) ? PEL_OK : PEL_ERR_FORMAT;
-        pel_filter filter;
-        setUp();
-        TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_begin(&filter, &config));
-        TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture));
-        TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, picture + WIDTH));
-        TEST_ASSERT_EQUAL_INT(expected, pel_filter_pull_s16(&filter, out_s16));
-        TEST_ASSERT_EQUAL_INT16(CANARY, out_s16[is_signed(op) ? WIDTH : 0]);
-        TEST_ASSERT_EQUAL_UINT16(is_signed(op) ? 1 : 0, filter.row);
-        TEST_ASSERT_EQUAL_INT(is_signed(op) ? PEL_ERR_ORDER : PEL_OK,
-                              pel_filter_pull(&filter, out));
-    }
+    pel_filter_config config = kernel_config("sobel_x");
+    expect_pulls(&config, 1, 1);
+    config.op = pel_op_gradient;
+    expect_pulls(&config, 1, 0);
+    config.op_s16 = pel_op_gradient_s16;
+    expect_pulls(&config, 1, 1);
+    config.op = NULL;
+    expect_pulls(&config, 0, 1);
 }
 
 int main(void)
@@ -349,7 +394,8 @@ int main(void)
     RUN_TEST(test_size_of_the_result);
     RUN_TEST(test_begin_accepts_what_it_should);
     RUN_TEST(test_begin_refuses_null_pointers);
-    RUN_TEST(test_begin_refuses_unknown_operators_and_borders);
+    RUN_TEST(test_begin_refuses_radii_that_it_cannot_do);
+    RUN_TEST(test_begin_refuses_unknown_borders);
     RUN_TEST(test_begin_refuses_kernels_out_of_range);
     RUN_TEST(test_begin_refuses_wrap_without_the_last_rows);
     RUN_TEST(test_begin_refuses_impossible_sizes);
@@ -359,6 +405,6 @@ int main(void)
     RUN_TEST(test_when_rows_are_ready);
     RUN_TEST(test_null_rows_are_refused_and_change_nothing);
     RUN_TEST(test_a_new_begin_forgets_the_old_picture);
-    RUN_TEST(test_sixteen_bits_are_for_kernels_and_gradients);
+    RUN_TEST(test_results_come_in_the_form_that_was_asked_for);
     return UNITY_END();
 }

@@ -87,8 +87,11 @@ static void test_frames_refuse_what_begin_refuses(void)
     config.work = NULL;
     expect_frame(PEL_ERR_ARG, &config, &source, &target);
     config = kernel_config("box3");
-    config.op = PEL_FILTER_OP_COUNT;
+    config.op_s16 = pel_op_sobel_x_s16;
+    config.op = pel_op_binomial5; /* another radius */
     expect_frame(PEL_ERR_ARG, &config, &source, &target);
+    config.op = NULL; /* only 16 bits */
+    expect_frame(PEL_ERR_FORMAT, &config, &source, &target);
     config = kernel_config("box3");
     config.work_bytes--;
     expect_frame(PEL_ERR_SPACE, &config, &source, &target);
@@ -99,7 +102,7 @@ static void test_frames_refuse_what_begin_refuses(void)
 
 static void test_frames_fill_in_size_and_last_rows(void)
 {
-    pel_filter_config config = config_of(PEL_FILTER_KERNEL, "shift_down", PEL_BORDER_WRAP);
+    pel_filter_config config = config_of(NULL, "shift_down", PEL_BORDER_WRAP);
     const pel_cview source = source_view();
     const pel_view target = target_view(WIDTH, HEIGHT);
     config.width = config.height = 1;
@@ -152,7 +155,7 @@ static void test_frames_of_16_bits_refuse(void)
     expect_frame_s16(PEL_ERR_ARG, NULL, &source, out_s16);
     expect_frame_s16(PEL_ERR_ARG, &config, NULL, out_s16);
     expect_frame_s16(PEL_ERR_ARG, &config, &source, NULL);
-    config.op = PEL_FILTER_MAX;
+    config.op = pel_op_max;
     expect_frame_s16(PEL_ERR_FORMAT, &config, &source, out_s16);
     config = kernel_config("box3");
     config.work_bytes--;

@@ -18,7 +18,7 @@ void tearDown(void)
 
 /* ---- One neighbourhood --------------------------------------------------------------------- */
 
-static pel_filter_config valid_config(pel_filter_op op, const pel_kernel *kernel)
+static pel_filter_config valid_config(pel_filter_op *op, const pel_kernel *kernel)
 {
     pel_filter_config config = {0};
     config.op = op;
@@ -37,16 +37,17 @@ static pel_cview square_view(const uint8_t *pixels)
     return view;
 }
 
-static int16_t one_s16(pel_filter_op op, const pel_kernel *kernel, const uint8_t *pixels)
+static int16_t one_s16(pel_filter_op_s16 *op, const uint8_t *pixels)
 {
-    const pel_filter_config config = valid_config(op, kernel);
+    pel_filter_config config = valid_config(NULL, NULL);
     const pel_cview view = square_view(pixels);
     int16_t result = 12345;
+    config.op_s16 = op;
     TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_frame_s16(&config, &view, &result, 1));
     return result;
 }
 
-static uint8_t one_u8(pel_filter_op op, const pel_kernel *kernel, const uint8_t *pixels)
+static uint8_t one_u8(pel_filter_op *op, const pel_kernel *kernel, const uint8_t *pixels)
 {
     const pel_filter_config config = valid_config(op, kernel);
     const pel_cview view = square_view(pixels);
@@ -62,10 +63,18 @@ static uint8_t one_u8(pel_filter_op op, const pel_kernel *kernel, const uint8_t 
 
 /* A neighbourhood and what an operator makes of it. */
 typedef struct example {
-    pel_filter_op op;
+    pel_filter_op *op;
     int16_t result;
     uint8_t pixels[9];
 } example;
+
+/* Of an operator that has both forms. */
+typedef struct signed_example {
+    pel_filter_op *op;
+    pel_filter_op_s16 *op_s16;
+    int16_t result;
+    uint8_t pixels[9];
+} signed_example;
 
 static void expect_examples_u8(const example *examples, unsigned count)
 {
@@ -79,25 +88,34 @@ static void expect_examples_u8(const example *examples, unsigned count)
 
 static void test_gradients(void)
 {
-    static const example examples[] = {
-        {PEL_FILTER_GRADIENT_ABS, 0, {7, 7, 7, 7, 7, 7, 7, 7, 7}},
-        {PEL_FILTER_GRADIENT_ABS, 36, {0, 50, 9, 0, 99, 9, 0, 50, 9}},
-        {PEL_FILTER_GRADIENT_ABS, 36, {9, 9, 9, 50, 99, 50, 0, 0, 0}},
-        {PEL_FILTER_GRADIENT_ABS, 20, {0, 0, 0, 0, 0, 0, 10, 0, 0}},
-        {PEL_FILTER_GRADIENT_ABS, 254, {0, 0, 127, 0, 0, 0, 0, 0, 0}},
-        {PEL_FILTER_GRADIENT_ABS, 256, {0, 0, 128, 0, 0, 0, 0, 0, 0}},
-        {PEL_FILTER_GRADIENT_ABS, 1530, {0, 0, 255, 0, 77, 255, 0, 255, 255}},
-        {PEL_FILTER_GRADIENT, 0, {7, 7, 7, 7, 7, 7, 7, 7, 7}},
-        {PEL_FILTER_GRADIENT, 36, {0, 50, 9, 0, 99, 9, 0, 50, 9}},
-        {PEL_FILTER_GRADIENT, 36, {9, 9, 9, 50, 99, 50, 0, 0, 0}},
-        {PEL_FILTER_GRADIENT, 14, {0, 0, 0, 0, 0, 0, 10, 0, 0}}, /* sqrt 200 = 14.14 */
-        {PEL_FILTER_GRADIENT, 10, {0, 0, 0, 0, 0, 3, 0, 4, 0}},  /* 6 and 8 */
-        {PEL_FILTER_GRADIENT, 7, {0, 0, 7, 0, 0, 0, 0, 5, 0}},   /* 7 and 3: sqrt 58 = 7.6 */
-        {PEL_FILTER_GRADIENT, 1140, {0, 0, 255, 0, 77, 255, 0, 255, 255}}, /* sqrt 1300500 */
+    static const signed_example examples[] = {
+        {pel_op_gradient_abs, pel_op_gradient_abs_s16, 0, {7, 7, 7, 7, 7, 7, 7, 7, 7}},
+        {pel_op_gradient_abs, pel_op_gradient_abs_s16, 36, {0, 50, 9, 0, 99, 9, 0, 50, 9}},
+        {pel_op_gradient_abs, pel_op_gradient_abs_s16, 36, {9, 9, 9, 50, 99, 50, 0, 0, 0}},
+        {pel_op_gradient_abs, pel_op_gradient_abs_s16, 20, {0, 0, 0, 0, 0, 0, 10, 0, 0}},
+        {pel_op_gradient_abs, pel_op_gradient_abs_s16, 254, {0, 0, 127, 0, 0, 0, 0, 0, 0}},
+        {pel_op_gradient_abs, pel_op_gradient_abs_s16, 256, {0, 0, 128, 0, 0, 0, 0, 0, 0}},
+        {pel_op_gradient_abs, pel_op_gradient_abs_s16, 1530, {0, 0, 255, 0, 77, 255, 0, 255, 255}},
+        {pel_op_gradient, pel_op_gradient_s16, 0, {7, 7, 7, 7, 7, 7, 7, 7, 7}},
+        {pel_op_gradient, pel_op_gradient_s16, 36, {0, 50, 9, 0, 99, 9, 0, 50, 9}},
+        {pel_op_gradient, pel_op_gradient_s16, 36, {9, 9, 9, 50, 99, 50, 0, 0, 0}},
+        {pel_op_gradient,
+         pel_op_gradient_s16,
+         14,
+         {0, 0, 0, 0, 0, 0, 10, 0, 0}}, /* sqrt 200 = 14.14 */
+        {pel_op_gradient, pel_op_gradient_s16, 10, {0, 0, 0, 0, 0, 3, 0, 4, 0}}, /* 6 and 8 */
+        {pel_op_gradient,
+         pel_op_gradient_s16,
+         7,
+         {0, 0, 7, 0, 0, 0, 0, 5, 0}}, /* 7 and 3: sqrt 58 = 7.6 */
+        {pel_op_gradient,
+         pel_op_gradient_s16,
+         1140,
+         {0, 0, 255, 0, 77, 255, 0, 255, 255}}, /* sqrt 1300500 */
     };
     for (unsigned i = 0; i < sizeof examples / sizeof examples[0]; i++) {
-        const example *e = &examples[i];
-        TEST_ASSERT_EQUAL_INT16(e->result, one_s16(e->op, NULL, e->pixels));
+        const signed_example *e = &examples[i];
+        TEST_ASSERT_EQUAL_INT16(e->result, one_s16(e->op_s16, e->pixels));
         TEST_ASSERT_EQUAL_UINT8(e->result > 255 ? 255 : e->result, one_u8(e->op, NULL, e->pixels));
     }
 }
@@ -105,18 +123,18 @@ static void test_gradients(void)
 static void test_directions(void)
 {
     static const example examples[] = {
-        {PEL_FILTER_DIRECTION, 0, {0, 0, 9, 0, 0, 9, 0, 0, 9}},   /* brighter to the right */
-        {PEL_FILTER_DIRECTION, 64, {0, 0, 0, 0, 0, 0, 9, 9, 9}},  /* below */
-        {PEL_FILTER_DIRECTION, 128, {9, 0, 0, 9, 0, 0, 9, 0, 0}}, /* left */
-        {PEL_FILTER_DIRECTION, 192, {9, 9, 9, 0, 0, 0, 0, 0, 0}}, /* above */
-        {PEL_FILTER_DIRECTION, 32, {0, 0, 0, 0, 0, 0, 0, 0, 1}},  /* corners */
-        {PEL_FILTER_DIRECTION, 96, {0, 0, 0, 0, 0, 0, 1, 0, 0}},
-        {PEL_FILTER_DIRECTION, 160, {1, 0, 0, 0, 0, 0, 0, 0, 0}},
-        {PEL_FILTER_DIRECTION, 224, {0, 0, 1, 0, 0, 0, 0, 0, 0}},
-        {PEL_FILTER_DIRECTION, 0, {5, 5, 5, 5, 5, 5, 5, 5, 5}},          /* none */
-        {PEL_FILTER_DIRECTION, 19, {0, 0, 255, 0, 0, 255, 0, 255, 255}}, /* 1020, 510: 18.89 */
-        {PEL_FILTER_DIRECTION, 0, {0, 3, 255, 0, 0, 255, 0, 0, 255}},    /* 1020, -6: -0.24 */
-        {PEL_FILTER_DIRECTION, 255, {0, 8, 255, 0, 0, 255, 0, 0, 255}},  /* 1020, -16: -0.64 */
+        {pel_op_direction, 0, {0, 0, 9, 0, 0, 9, 0, 0, 9}},   /* brighter to the right */
+        {pel_op_direction, 64, {0, 0, 0, 0, 0, 0, 9, 9, 9}},  /* below */
+        {pel_op_direction, 128, {9, 0, 0, 9, 0, 0, 9, 0, 0}}, /* left */
+        {pel_op_direction, 192, {9, 9, 9, 0, 0, 0, 0, 0, 0}}, /* above */
+        {pel_op_direction, 32, {0, 0, 0, 0, 0, 0, 0, 0, 1}},  /* corners */
+        {pel_op_direction, 96, {0, 0, 0, 0, 0, 0, 1, 0, 0}},
+        {pel_op_direction, 160, {1, 0, 0, 0, 0, 0, 0, 0, 0}},
+        {pel_op_direction, 224, {0, 0, 1, 0, 0, 0, 0, 0, 0}},
+        {pel_op_direction, 0, {5, 5, 5, 5, 5, 5, 5, 5, 5}},          /* none */
+        {pel_op_direction, 19, {0, 0, 255, 0, 0, 255, 0, 255, 255}}, /* 1020, 510: 18.89 */
+        {pel_op_direction, 0, {0, 3, 255, 0, 0, 255, 0, 0, 255}},    /* 1020, -6: -0.24 */
+        {pel_op_direction, 255, {0, 8, 255, 0, 0, 255, 0, 0, 255}},  /* 1020, -16: -0.64 */
     };
     EXPECT_ALL_U8(examples);
 }
@@ -124,16 +142,16 @@ static void test_directions(void)
 static void test_median_minimum_and_maximum(void)
 {
     static const example examples[] = {
-        {PEL_FILTER_MEDIAN, 5, {9, 1, 8, 2, 7, 3, 6, 4, 5}},
-        {PEL_FILTER_MEDIAN, 0, {255, 0, 255, 0, 0, 0, 255, 0, 255}},
-        {PEL_FILTER_MEDIAN, 255, {255, 0, 255, 0, 255, 0, 255, 0, 255}},
-        {PEL_FILTER_MEDIAN, 10, {10, 10, 10, 10, 200, 10, 10, 10, 10}},
-        {PEL_FILTER_MIN, 1, {9, 1, 8, 2, 7, 3, 6, 4, 5}},
-        {PEL_FILTER_MIN, 0, {255, 255, 255, 255, 255, 255, 255, 255, 0}},
-        {PEL_FILTER_MIN, 255, {255, 255, 255, 255, 255, 255, 255, 255, 255}},
-        {PEL_FILTER_MAX, 9, {9, 1, 8, 2, 7, 3, 6, 4, 5}},
-        {PEL_FILTER_MAX, 255, {0, 0, 0, 0, 0, 0, 255, 0, 0}},
-        {PEL_FILTER_MAX, 0, {0, 0, 0, 0, 0, 0, 0, 0, 0}},
+        {pel_op_median, 5, {9, 1, 8, 2, 7, 3, 6, 4, 5}},
+        {pel_op_median, 0, {255, 0, 255, 0, 0, 0, 255, 0, 255}},
+        {pel_op_median, 255, {255, 0, 255, 0, 255, 0, 255, 0, 255}},
+        {pel_op_median, 10, {10, 10, 10, 10, 200, 10, 10, 10, 10}},
+        {pel_op_min, 1, {9, 1, 8, 2, 7, 3, 6, 4, 5}},
+        {pel_op_min, 0, {255, 255, 255, 255, 255, 255, 255, 255, 0}},
+        {pel_op_min, 255, {255, 255, 255, 255, 255, 255, 255, 255, 255}},
+        {pel_op_max, 9, {9, 1, 8, 2, 7, 3, 6, 4, 5}},
+        {pel_op_max, 255, {0, 0, 0, 0, 0, 0, 255, 0, 0}},
+        {pel_op_max, 0, {0, 0, 0, 0, 0, 0, 0, 0, 0}},
     };
     EXPECT_ALL_U8(examples);
 }
@@ -142,15 +160,15 @@ static void test_median_minimum_and_maximum(void)
 static void test_majority(void)
 {
     static const example examples[] = {
-        {PEL_FILTER_MAJORITY, 3, {3, 1, 3, 2, 4, 3, 5, 6, 7}},
-        {PEL_FILTER_MAJORITY, 2, {1, 1, 1, 1, 2, 2, 2, 2, 3}}, /* four each: the pixel's own */
-        {PEL_FILTER_MAJORITY, 1, {1, 1, 1, 1, 3, 2, 2, 2, 2}}, /* four each: the smaller */
-        {PEL_FILTER_MAJORITY, 1, {2, 2, 2, 2, 3, 1, 1, 1, 1}},
-        {PEL_FILTER_MAJORITY, 0, {0, 0, 0, 0, 5, 7, 7, 7, 7}},
-        {PEL_FILTER_MAJORITY, 7, {0, 0, 0, 7, 5, 7, 7, 7, 7}},
-        {PEL_FILTER_MAJORITY, 5, {1, 2, 3, 4, 5, 6, 7, 8, 9}}, /* one each */
-        {PEL_FILTER_MAJORITY, 255, {0, 255, 0, 255, 255, 255, 0, 255, 0}},
-        {PEL_FILTER_MAJORITY, 128, {1, 1, 1, 128, 128, 128, 0, 0, 0}}, /* three each */
+        {pel_op_majority, 3, {3, 1, 3, 2, 4, 3, 5, 6, 7}},
+        {pel_op_majority, 2, {1, 1, 1, 1, 2, 2, 2, 2, 3}}, /* four each: the pixel's own */
+        {pel_op_majority, 1, {1, 1, 1, 1, 3, 2, 2, 2, 2}}, /* four each: the smaller */
+        {pel_op_majority, 1, {2, 2, 2, 2, 3, 1, 1, 1, 1}},
+        {pel_op_majority, 0, {0, 0, 0, 0, 5, 7, 7, 7, 7}},
+        {pel_op_majority, 7, {0, 0, 0, 7, 5, 7, 7, 7, 7}},
+        {pel_op_majority, 5, {1, 2, 3, 4, 5, 6, 7, 8, 9}}, /* one each */
+        {pel_op_majority, 255, {0, 255, 0, 255, 255, 255, 0, 255, 0}},
+        {pel_op_majority, 128, {1, 1, 1, 128, 128, 128, 0, 0, 0}}, /* three each */
     };
     EXPECT_ALL_U8(examples);
 }
@@ -158,25 +176,93 @@ static void test_majority(void)
 static void test_labels_eroded_and_dilated(void)
 {
     static const example examples[] = {
-        {PEL_FILTER_ERODE_LABELS, 7, {7, 7, 7, 7, 7, 7, 7, 7, 7}},
-        {PEL_FILTER_ERODE_LABELS, 255, {255, 255, 255, 255, 255, 255, 255, 255, 255}},
-        {PEL_FILTER_ERODE_LABELS, 0, {7, 7, 7, 7, 7, 7, 7, 7, 8}},
-        {PEL_FILTER_ERODE_LABELS, 0, {7, 7, 7, 7, 8, 7, 7, 7, 7}},
-        {PEL_FILTER_ERODE_LABELS, 0, {0, 7, 7, 7, 7, 7, 7, 7, 7}},
-        {PEL_FILTER_ERODE_LABELS, 0, {0, 0, 0, 0, 0, 0, 0, 0, 0}},
-        {PEL_FILTER_DILATE_LABELS, 9, {1, 1, 1, 1, 9, 1, 1, 1, 1}}, /* own before others' */
-        {PEL_FILTER_DILATE_LABELS, 3, {5, 0, 0, 0, 0, 3, 0, 0, 8}},
-        {PEL_FILTER_DILATE_LABELS, 255, {0, 0, 0, 0, 0, 0, 0, 0, 255}},
-        {PEL_FILTER_DILATE_LABELS, 0, {0, 0, 0, 0, 0, 0, 0, 0, 0}},
+        {pel_op_erode_labels, 7, {7, 7, 7, 7, 7, 7, 7, 7, 7}},
+        {pel_op_erode_labels, 255, {255, 255, 255, 255, 255, 255, 255, 255, 255}},
+        {pel_op_erode_labels, 0, {7, 7, 7, 7, 7, 7, 7, 7, 8}},
+        {pel_op_erode_labels, 0, {7, 7, 7, 7, 8, 7, 7, 7, 7}},
+        {pel_op_erode_labels, 0, {0, 7, 7, 7, 7, 7, 7, 7, 7}},
+        {pel_op_erode_labels, 0, {0, 0, 0, 0, 0, 0, 0, 0, 0}},
+        {pel_op_dilate_labels, 9, {1, 1, 1, 1, 9, 1, 1, 1, 1}}, /* own before others' */
+        {pel_op_dilate_labels, 3, {5, 0, 0, 0, 0, 3, 0, 0, 8}},
+        {pel_op_dilate_labels, 255, {0, 0, 0, 0, 0, 0, 0, 0, 255}},
+        {pel_op_dilate_labels, 0, {0, 0, 0, 0, 0, 0, 0, 0, 0}},
     };
     EXPECT_ALL_U8(examples);
 }
 
-/* Only PEL_FILTER_KERNEL looks at the kernel. */
+/* Only the default of config.op looks at the kernel. */
 static void test_other_operators_have_radius_1_whatever_the_kernel(void)
 {
     static const uint8_t pixels[9] = {9, 1, 8, 2, 7, 3, 6, 4, 5};
-    TEST_ASSERT_EQUAL_UINT8(5, one_u8(PEL_FILTER_MEDIAN, pel_kernel_named("gauss5"), pixels));
+    TEST_ASSERT_EQUAL_UINT8(5, one_u8(pel_op_median, pel_kernel_named("gauss5"), pixels));
+}
+
+/* ---- Operators that are kernels ------------------------------------------------------------ */
+
+static const uint8_t hills[25] = {0,   3, 17,  255, 200, 9, 80, 44, 7, 255, 1,   90, 250,
+                                  128, 5, 255, 255, 0,   0, 31, 77, 2, 6,   128, 254};
+
+/* The whole picture of 5 x 5 by the taps, in 8 bits. */
+static void filter_hills(const pel_filter_config *config, uint8_t *results)
+{
+    pel_cview from;
+    pel_view to;
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_cview_init(hills, PEL_GRAY8, PEL_RANGE_FULL, 5, 5, 0, &from));
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_view_init(results, PEL_GRAY8, PEL_RANGE_FULL, 5, 5, 0, &to));
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_frame(config, &from, &to));
+}
+
+static void expect_as_by_taps(pel_filter_op *op, const char *name)
+{
+    static uint8_t room[PEL_FILTER_BYTES(5, 2)];
+    uint8_t by_op[25], by_taps[25];
+    pel_filter_config config = {0};
+    config.work = room;
+    config.work_bytes = sizeof room;
+    config.op = op;
+    filter_hills(&config, by_op);
+    config.op = NULL;
+    config.kernel = pel_kernel_named(name);
+    filter_hills(&config, by_taps);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY_MESSAGE(by_taps, by_op, 25, name);
+}
+
+static void test_smoothing_operators_are_the_named_kernels(void)
+{
+    static const uint8_t corner[9] = {255, 0, 0, 0, 0, 0, 0, 0, 0};
+    expect_as_by_taps(pel_op_gauss3, "gauss3");
+    expect_as_by_taps(pel_op_box3, "box3");
+    expect_as_by_taps(pel_op_binomial5, "binomial5");
+    TEST_ASSERT_EQUAL_UINT8(16, one_u8(pel_op_gauss3, NULL, corner)); /* 255 / 16 = 15.9 */
+    TEST_ASSERT_EQUAL_UINT8(28, one_u8(pel_op_box3, NULL, corner));   /* 255 / 9 = 28.3 */
+}
+
+static void test_sobel_operators_keep_the_sign(void)
+{
+    static const uint8_t falling[9] = {255, 9, 0, 255, 9, 0, 255, 9, 0};
+    static const uint8_t rising[9] = {0, 0, 0, 9, 9, 9, 255, 255, 254};
+    TEST_ASSERT_EQUAL_INT16(-1020, one_s16(pel_op_sobel_x_s16, falling));
+    TEST_ASSERT_EQUAL_INT16(0, one_s16(pel_op_sobel_y_s16, falling));
+    TEST_ASSERT_EQUAL_INT16(-1, one_s16(pel_op_sobel_x_s16, rising));
+    TEST_ASSERT_EQUAL_INT16(1019, one_s16(pel_op_sobel_y_s16, rising));
+}
+
+/* One of the caller's own: the header's example. */
+static unsigned brighter_above(const uint8_t *const rows[], uint16_t count,
+                               const pel_kernel *kernel, uint8_t *out)
+{
+    (void)kernel;
+    for (uint16_t x = 0; x < count; x++) {
+        out[x] = rows[0][x] > rows[1][x] ? 255 : 0;
+    }
+    return 1;
+}
+
+static void test_an_operator_of_the_callers_own(void)
+{
+    static const uint8_t above[9] = {1, 5, 1, 9, 4, 9, 9, 9, 9}, below[9] = {9, 4, 9, 1, 5, 1};
+    TEST_ASSERT_EQUAL_UINT8(255, one_u8(brighter_above, NULL, above));
+    TEST_ASSERT_EQUAL_UINT8(0, one_u8(brighter_above, NULL, below));
 }
 
 /* ---- Borders ------------------------------------------------------------------------------- */
@@ -284,6 +370,9 @@ int main(void)
     RUN_TEST(test_majority);
     RUN_TEST(test_labels_eroded_and_dilated);
     RUN_TEST(test_other_operators_have_radius_1_whatever_the_kernel);
+    RUN_TEST(test_smoothing_operators_are_the_named_kernels);
+    RUN_TEST(test_sobel_operators_keep_the_sign);
+    RUN_TEST(test_an_operator_of_the_callers_own);
     RUN_TEST(test_places_outside_short_rows);
     RUN_TEST(test_places_as_the_header_draws_them);
     RUN_TEST(test_places_at_any_distance);

@@ -9,7 +9,7 @@
  *     static uint8_t work[PEL_FILTER_BYTES(320, 1)];
  *     pel_filter filter;
  *     pel_filter_config config = {0};
- *     config.kernel = pel_kernel_named("gauss3");
+ *     config.op = pel_op_gauss3;
  *     config.width = 320;
  *     config.height = 240;
  *     config.work = work;
@@ -68,12 +68,11 @@ typedef struct pel_kernel {
     uint8_t shift;    /* 0..15 */
     uint8_t absolute; /* 0 or 1 */
     int16_t bias;
-    uint8_t fast; /* set in the named kernels that have a faster way to the same bytes; else 0 (and
-                         without effect on other taps) */
 } pel_kernel;
 
 /*
- * The named kernels; NULL for a name that is none. All as correlations (tap k meets pixel k):
+ * The named kernels; NULL for a name that is none. A program that calls this holds the whole table,
+ * 1 KiB. All as correlations (tap k meets pixel k):
  *   identity                            box3      all 1 / 9
  *   shift_left shift_right shift_up shift_down    the picture moves by one pixel
  *   gauss3      1 2 1 / 2 4 2 / 1 2 1, / 16       binomial5  1 4 6 4 1 squared, / 256
@@ -96,22 +95,60 @@ pel_kernel pel_kernel_flipped(const pel_kernel *kernel);
 
 /* ---- Operators ----------------------------------------------------------------------------- */
 
-/* What a filter computes from a neighbourhood of 3x3, or of 5x5 for a kernel of radius 2. */
-typedef enum pel_filter_op {
-    PEL_FILTER_KERNEL = 0,   /* config.kernel */
-    PEL_FILTER_GRADIENT_ABS, /* |gx| + |gy| of Sobel, 0..1530 (limited to 255 in 8 bits) */
-    PEL_FILTER_GRADIENT,     /* sqrt(gx^2 + gy^2), rounded down, 0..1140 */
-    PEL_FILTER_DIRECTION, /* atan2(gy, gx) in 1/256 of a turn, nearest, 0..255: 0 = brighter to the
-                                  right, 64 = brighter below; 0 where there is no gradient */
-    PEL_FILTER_MEDIAN,    /* the fifth of the nine */
-    PEL_FILTER_MIN,       /* erosion of bright areas */
-    PEL_FILTER_MAX,       /* dilation */
-    PEL_FILTER_MAJORITY,  /* of labels: the most frequent; of several, the pixel's own if it is one
-                                  of them, else the smallest */
-    PEL_FILTER_ERODE_LABELS,  /* the label if all nine are it, else 0 */
-    PEL_FILTER_DILATE_LABELS, /* the pixel's own label; where that is 0, the smallest one around */
-    PEL_FILTER_OP_COUNT
-} pel_filter_op;
+/*
+ * An operator computes a row of the result: `count` pixels into `out`. rows[0 .. 2r] are the rows
+ * from r above to r below; each points at the pixel above, at or below the first result, and r
+ * pixels on either side of the `count` ones may be read. `kernel` is that of the config. `out` is
+ * none of the rows. It returns its radius r, 1 or 2; to learn it, it is also called with a count of
+ * 0, and then rows and out are NULL.
+ *
+ * An operator is asked for by its function, so that a program holds those that it names and no
+ * others. One of your own is as good as these:
+ *
+ *     static unsigned brighter_above(const uint8_t *const rows[], uint16_t count,
+ *                                    const pel_kernel *kernel, uint8_t *out)
+ *     {
+ *         (void)kernel;
+ *         for (uint16_t x = 0; x < count; x++)
+ *             out[x] = rows[0][x] > rows[1][x] ? 255 : 0;
+ *         return 1;
+ *     }
+ */
+typedef unsigned pel_filter_op(const uint8_t *const rows[], uint16_t count,
+                               const pel_kernel *kernel, uint8_t *out);
+
+/* The same with signed 16-bit results. */
+typedef unsigned pel_filter_op_s16(const uint8_t *const rows[], uint16_t count,
+                                   const pel_kernel *kernel, int16_t *out);
+
+/* The named kernels of these names, byte for byte, but several times as fast as by their taps. */
+pel_filter_op pel_op_gauss3, pel_op_box3, pel_op_binomial5;
+pel_filter_op_s16 pel_op_sobel_x_s16, pel_op_sobel_y_s16;
+
+/* |gx| + |gy| of Sobel, 0..1530, in 8 bits limited to 255. */
+pel_filter_op pel_op_gradient_abs;
+pel_filter_op_s16 pel_op_gradient_abs_s16;
+
+/* sqrt(gx^2 + gy^2) of Sobel, rounded down, 0..1140, in 8 bits limited to 255. */
+pel_filter_op pel_op_gradient;
+pel_filter_op_s16 pel_op_gradient_s16;
+
+/* atan2(gy, gx) of Sobel in 1/256 of a turn, nearest, 0..255: 0 = brighter to the right, 64 =
+ * brighter below; 0 where there is no gradient. */
+pel_filter_op pel_op_direction;
+
+/* The fifth of the nine; the smallest: erosion of bright areas; the largest: dilation. */
+pel_filter_op pel_op_median, pel_op_min, pel_op_max;
+
+/* Of labels: the most frequent of the nine; of several, the pixel's own if it is one of them, else
+ * the smallest. */
+pel_filter_op pel_op_majority;
+
+/* The label if all nine are it, else 0. */
+pel_filter_op pel_op_erode_labels;
+
+/* The pixel's own label; where that is 0, the smallest one around. */
+pel_filter_op pel_op_dilate_labels;
 
 /* ---- Streaming ----------------------------------------------------------------------------- */
 
@@ -125,10 +162,12 @@ typedef enum pel_filter_op {
     ((uint32_t)(3 * (radius) + 1) * ((uint32_t)(width) + 2 * (radius)))
 uint32_t pel_filter_bytes(uint16_t width, unsigned radius, pel_border border);
 
-/* What to compute. Width, height and work must be set, and kernel for PEL_FILTER_KERNEL; zero is a
+/* What to compute: `op` in 8 bits, `op_s16` in 16 bits, or both if their radius is the same; where
+ * both are NULL, the sums of `kernel`, in either. Width, height and work must be set; zero is a
  * sane value for the rest. */
 typedef struct pel_filter_config {
-    pel_filter_op op;
+    pel_filter_op *op;
+    pel_filter_op_s16 *op_s16;
     const pel_kernel *kernel; /* not copied */
     uint16_t width, height;   /* 1..PEL_SIDE_MAX; for VALID at least 2r + 1 */
     pel_border border;
@@ -143,10 +182,9 @@ typedef struct pel_filter_config {
 /* A filter at work. The caller places it (under 100 bytes); private but for `row`. */
 typedef struct pel_filter {
     pel_filter_config config;
-    uint16_t radius;
     uint16_t pushed;
     uint16_t row; /* how many rows have been pulled */
-    uint8_t fast;
+    uint8_t radius;
     uint8_t state;
 } pel_filter;
 
@@ -155,9 +193,9 @@ uint16_t pel_filter_width(const pel_filter_config *config);
 uint16_t pel_filter_height(const pel_filter_config *config);
 
 /*
- * Starts a picture. PEL_ERR_ARG: null pointer, unknown op or border, a radius, divisor or shift out
- * of range, WRAP without last_rows. PEL_ERR_RANGE: a side is 0, over PEL_SIDE_MAX, or too small for
- * VALID. PEL_ERR_SPACE: work_bytes too small.
+ * Starts a picture. PEL_ERR_ARG: null pointer, unknown border, a radius, divisor or shift out of
+ * range, two radii, WRAP without last_rows. PEL_ERR_RANGE: a side is 0, over PEL_SIDE_MAX, or too
+ * small for VALID. PEL_ERR_SPACE: work_bytes too small.
  */
 pel_status pel_filter_begin(pel_filter *filter, const pel_filter_config *config);
 
@@ -166,11 +204,11 @@ pel_status pel_filter_begin(pel_filter *filter, const pel_filter_config *config)
 pel_status pel_filter_push(pel_filter *filter, const uint8_t *row);
 
 /* Computes the next row of the result, if the rows that it needs are there: PEL_OK. PEL_ERR_ORDER:
- * not yet, or all done; nothing is written. PEL_ERR_ARG: null pointer. */
+ * not yet, or all done; nothing is written. PEL_ERR_ARG: null pointer. PEL_ERR_FORMAT: only op_s16
+ * is set. */
 pel_status pel_filter_pull(pel_filter *filter, uint8_t *out);
 
-/* The same with signed 16-bit results, for PEL_FILTER_KERNEL, GRADIENT_ABS and GRADIENT;
- * PEL_ERR_FORMAT for the others. */
+/* The same with signed 16-bit results; PEL_ERR_FORMAT: only op is set. */
 pel_status pel_filter_pull_s16(pel_filter *filter, int16_t *out);
 
 /* ---- Whole frames -------------------------------------------------------------------------- */
@@ -179,7 +217,7 @@ pel_status pel_filter_pull_s16(pel_filter *filter, int16_t *out);
  * Filters a GRAY8 view; nothing but a loop over push and pull. config.width, height and last_rows
  * are filled in. `dst` has the size of the result. It may be the same pixels as `src` (same plane
  * and stride); otherwise they must not overlap. PEL_ERR_FORMAT: not GRAY8. PEL_ERR_SPACE: dst has
- * another size. PEL_ERR_ARG: overlap, null pointer. Others as of pel_filter_begin.
+ * another size. PEL_ERR_ARG: overlap, null pointer. Others as of begin and pull.
  */
 pel_status pel_filter_frame(const pel_filter_config *config, const pel_cview *src,
                             const pel_view *dst);
@@ -190,14 +228,13 @@ pel_status pel_filter_frame_s16(const pel_filter_config *config, const pel_cview
                                 int32_t stride);
 
 /*
- * Opening and closing: a filter and, on its result, another, with the border of config for both;
- * for opening MIN then MAX, for closing MAX then MIN. work holds PEL_FILTER_TWICE_BYTES(width):
- * both filters and the row between them. VALID is refused (PEL_ERR_ARG), and so is WRAP, whose last
- * rows are not known between the two; so is PEL_FILTER_KERNEL. In place as above.
+ * Opening and closing: a filter and, on its result, another, both with the border, kernel and
+ * working memory of config; for opening pel_op_min then pel_op_max, for closing the other way
+ * round; NULL is the kernel. dst has the size of src, and holds the first result in between. VALID
+ * is refused (PEL_ERR_ARG). In place and all else as above.
  */
-#define PEL_FILTER_TWICE_BYTES(width) (2 * PEL_FILTER_BYTES(width, 1) + (uint32_t)(width))
-pel_status pel_filter_twice(const pel_filter_config *config, pel_filter_op first,
-                            pel_filter_op second, const pel_cview *src, const pel_view *dst);
+pel_status pel_filter_twice(const pel_filter_config *config, pel_filter_op *first,
+                            pel_filter_op *second, const pel_cview *src, const pel_view *dst);
 
 #ifdef __cplusplus
 }

@@ -10,38 +10,43 @@
  * unless said.
  */
 
-/* Sums of tap * pixel; taps row by row. The first for r = 1, the second for r = 2. */
-void pel_row_correlate3(const uint8_t *const rows[], const int8_t *tap, uint16_t count,
-                        int32_t *sums);
-void pel_row_correlate5(const uint8_t *const rows[], const int8_t *tap, uint16_t count,
-                        int32_t *sums);
-
-/* The same sums for 1 2 1 squared, for nine ones, for Sobel x and y, and, with r = 2, for 1 4 6 4 1
- * squared. */
-void pel_row_gauss3(const uint8_t *const rows[], uint16_t count, int32_t *sums);
-void pel_row_box3(const uint8_t *const rows[], uint16_t count, int32_t *sums);
-void pel_row_sobel_x(const uint8_t *const rows[], uint16_t count, int32_t *sums);
-void pel_row_sobel_y(const uint8_t *const rows[], uint16_t count, int32_t *sums);
-void pel_row_binomial5(const uint8_t *const rows[], uint16_t count, int32_t *sums);
-
-/* |gx| + |gy|, floor(sqrt(gx^2 + gy^2)) and the direction in 1/256 of a turn, of Sobel. */
-void pel_row_gradient_abs(const uint8_t *const rows[], uint16_t count, int32_t *sums);
-void pel_row_gradient(const uint8_t *const rows[], uint16_t count, int32_t *sums);
-void pel_row_direction(const uint8_t *const rows[], uint16_t count, uint8_t *out);
-
-/* How a sum becomes a result: round(sum / (divisor << shift)) + bias, of |sum| if absolute. */
+/*
+ * How a sum becomes a result: v = sum + start, which is positive; with flip = start, not 0, v below
+ * it becomes 2 start - v, so that |sum| + start is left; v / divisor or, where that is 0,
+ * v >> shift; + bias; limited to the type of the result. |sum| <= 816000 and v < 2^31.
+ */
 typedef struct pel_row_scale {
+    uint32_t start, flip;
+    uint32_t divisor;
     int32_t bias;
-    uint16_t divisor; /* 1..32767 */
-    uint8_t shift;    /* 0..15 */
-    uint8_t absolute;
+    uint8_t shift; /* 0..15 */
 } pel_row_scale;
 
-/* Sums into results, limited to the type. |sum| <= 816000. */
-void pel_row_scale_u8(const int32_t *sums, const pel_row_scale *scale, uint16_t count,
-                      uint8_t *out);
-void pel_row_scale_s16(const int32_t *sums, const pel_row_scale *scale, uint16_t count,
-                       int16_t *out);
+/* Sums of tap * pixel, scaled; taps row by row. The first two for r = 1, the others for r = 2. */
+void pel_row_kernel3(const uint8_t *const rows[], const int8_t *tap, const pel_row_scale *scale,
+                     uint16_t count, uint8_t *out);
+void pel_row_kernel3_s16(const uint8_t *const rows[], const int8_t *tap, const pel_row_scale *scale,
+                         uint16_t count, int16_t *out);
+void pel_row_kernel5(const uint8_t *const rows[], const int8_t *tap, const pel_row_scale *scale,
+                     uint16_t count, uint8_t *out);
+void pel_row_kernel5_s16(const uint8_t *const rows[], const int8_t *tap, const pel_row_scale *scale,
+                         uint16_t count, int16_t *out);
+
+/* 1 2 1 squared / 16, nine ones / 9 and, with r = 2, 1 4 6 4 1 squared / 256, rounded to nearest,
+ * halves upward. */
+void pel_row_gauss3(const uint8_t *const rows[], uint16_t count, uint8_t *out);
+void pel_row_box3(const uint8_t *const rows[], uint16_t count, uint8_t *out);
+void pel_row_binomial5(const uint8_t *const rows[], uint16_t count, uint8_t *out);
+
+/* Sobel's gradients gx and gy, |gx| + |gy|, floor(sqrt(gx^2 + gy^2)), in 8 bits limited to 255, and
+ * the direction in 1/256 of a turn. */
+void pel_row_sobel_x(const uint8_t *const rows[], uint16_t count, int16_t *out);
+void pel_row_sobel_y(const uint8_t *const rows[], uint16_t count, int16_t *out);
+void pel_row_gradient_abs(const uint8_t *const rows[], uint16_t count, uint8_t *out);
+void pel_row_gradient_abs_s16(const uint8_t *const rows[], uint16_t count, int16_t *out);
+void pel_row_gradient(const uint8_t *const rows[], uint16_t count, uint8_t *out);
+void pel_row_gradient_s16(const uint8_t *const rows[], uint16_t count, int16_t *out);
+void pel_row_direction(const uint8_t *const rows[], uint16_t count, uint8_t *out);
 
 /* Median, smallest, largest of nine. */
 void pel_row_median3(const uint8_t *const rows[], uint16_t count, uint8_t *out);

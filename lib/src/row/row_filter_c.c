@@ -1,102 +1,148 @@
 /* The row kernels of neighbourhoods in plain C: the truth that every faster version must equal. */
-#include "pel/fixed.h"
 #include "row/row_filter.h"
 
-/* ---- Sums ---------------------------------------------------------------------------------- */
-
-/* 3x3: -293760..291465; 5x5: -816000..809625. */
-void pel_row_correlate3(const uint8_t *const rows[], const int8_t *tap, uint16_t count,
-                        int32_t *sums)
+/* pel_saturate_u8 and _s16 where the compiler can see them. */
+static inline uint8_t limited_u8(int32_t value)
 {
+    return (uint8_t)(value < 0 ? 0 : value > 255 ? 255 : value);
+}
+
+static inline int16_t limited_s16(int32_t value)
+{
+    return (int16_t)(value < -32768 ? -32768 : value > 32767 ? 32767 : value);
+}
+
+/* ---- Kernels ------------------------------------------------------------------------------- */
+
+static inline int32_t scaled(uint32_t value, const pel_row_scale *scale)
+{
+    const uint32_t v = value < scale->flip ? 2 * scale->flip - value : value;
+    return (int32_t)(scale->divisor == 0 ? v >> scale->shift : v / scale->divisor) + scale->bias;
+}
+
+/* What the columns seen so far add to the next result and to the one after it. 3x3: the sums are
+ * -293760..291465; the start of the scale is in them. */
+typedef struct ahead3 {
+    int32_t next, after;
+} ahead3;
+
+/* Takes in the column at x and returns the sum that it completes. */
+static inline int32_t take_column3(ahead3 *ahead, const uint8_t *const rows[], int x,
+                                   const int8_t *tap, int32_t start)
+{
+    const int32_t a = rows[0][x], b = rows[1][x], c = rows[2][x];
+    const int32_t sum = ahead->next + tap[2] * a + tap[5] * b + tap[8] * c;
+
+    ahead->next = ahead->after + tap[1] * a + tap[4] * b + tap[7] * c;
+    ahead->after = start + tap[0] * a + tap[3] * b + tap[6] * c;
+    return sum;
+}
+
+static ahead3 first_columns3(const uint8_t *const rows[], const int8_t *tap, int32_t start)
+{
+    ahead3 ahead = {0, 0};
+
+    (void)take_column3(&ahead, rows, -1, tap, start);
+    (void)take_column3(&ahead, rows, 0, tap, start);
+    return ahead;
+}
+
+void pel_row_kernel3(const uint8_t *const rows[], const int8_t *tap, const pel_row_scale *scale,
+                     uint16_t count, uint8_t *restrict out)
+{
+    const int32_t start = (int32_t)scale->start;
+    ahead3 ahead = first_columns3(rows, tap, start);
+
     for (int x = 0; x < count; x++) {
-        const uint8_t *const a = rows[0] + x, *const b = rows[1] + x, *const c = rows[2] + x;
-        sums[x] = (int32_t)tap[0] * a[-1] + (int32_t)tap[1] * a[0] + (int32_t)tap[2] * a[1] +
-                  (int32_t)tap[3] * b[-1] + (int32_t)tap[4] * b[0] + (int32_t)tap[5] * b[1] +
-                  (int32_t)tap[6] * c[-1] + (int32_t)tap[7] * c[0] + (int32_t)tap[8] * c[1];
+        const int32_t sum = take_column3(&ahead, rows, x + 1, tap, start);
+        out[x] = limited_u8(scaled((uint32_t)sum, scale));
     }
 }
 
-void pel_row_correlate5(const uint8_t *const rows[], const int8_t *tap, uint16_t count,
-                        int32_t *sums)
+void pel_row_kernel3_s16(const uint8_t *const rows[], const int8_t *tap, const pel_row_scale *scale,
+                         uint16_t count, int16_t *restrict out)
+{
+    const int32_t start = (int32_t)scale->start;
+    ahead3 ahead = first_columns3(rows, tap, start);
+
+    for (int x = 0; x < count; x++) {
+        const int32_t sum = take_column3(&ahead, rows, x + 1, tap, start);
+        out[x] = limited_s16(scaled((uint32_t)sum, scale));
+    }
+}
+
+/* 5x5: -816000..809625. */
+static inline int32_t sum5(const uint8_t *const rows[], int x, const int8_t *tap)
+{
+    int32_t sum = 0;
+
+    for (unsigned r = 0; r < 5; r++) {
+        const uint8_t *const p = rows[r] + x;
+        const int8_t *const t = tap + 5 * r;
+        sum += t[0] * (int32_t)p[-2] + t[1] * (int32_t)p[-1] + t[2] * (int32_t)p[0] +
+               t[3] * (int32_t)p[1] + t[4] * (int32_t)p[2];
+    }
+    return sum;
+}
+
+void pel_row_kernel5(const uint8_t *const rows[], const int8_t *tap, const pel_row_scale *scale,
+                     uint16_t count, uint8_t *restrict out)
 {
     for (int x = 0; x < count; x++) {
-        int32_t sum = 0;
-        for (unsigned r = 0; r < 5; r++) {
-            const uint8_t *const p = rows[r] + x;
-            const int8_t *const t = tap + 5 * r;
-            sum += (int32_t)t[0] * p[-2] + (int32_t)t[1] * p[-1] + (int32_t)t[2] * p[0] +
-                   (int32_t)t[3] * p[1] + (int32_t)t[4] * p[2];
-        }
-        sums[x] = sum;
+        out[x] = limited_u8(scaled(scale->start + (uint32_t)sum5(rows, x, tap), scale));
+    }
+}
+
+void pel_row_kernel5_s16(const uint8_t *const rows[], const int8_t *tap, const pel_row_scale *scale,
+                         uint16_t count, int16_t *restrict out)
+{
+    for (int x = 0; x < count; x++) {
+        out[x] = limited_s16(scaled(scale->start + (uint32_t)sum5(rows, x, tap), scale));
     }
 }
 
 /* The separable ones add up each column once and keep the sums of the columns to the left. */
-void pel_row_gauss3(const uint8_t *const rows[], uint16_t count, int32_t *sums)
+void pel_row_gauss3(const uint8_t *const rows[], uint16_t count, uint8_t *restrict out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    int32_t left = a[-1] + 2 * b[-1] + c[-1], middle = a[0] + 2 * b[0] + c[0];
+    unsigned left = a[-1] + 2u * b[-1] + c[-1], middle = a[0] + 2u * b[0] + c[0];
 
     for (int x = 0; x < count; x++) {
-        const int32_t right = a[x + 1] + 2 * b[x + 1] + c[x + 1];
-        sums[x] = left + 2 * middle + right;
+        const unsigned right = a[x + 1] + 2u * b[x + 1] + c[x + 1];
+        out[x] = (uint8_t)((left + 2 * middle + right + 8) >> 4);
         left = middle;
         middle = right;
     }
 }
 
-void pel_row_box3(const uint8_t *const rows[], uint16_t count, int32_t *sums)
+/* n / 9 is n * 7282 >> 16 for all n up to 2299. */
+void pel_row_box3(const uint8_t *const rows[], uint16_t count, uint8_t *restrict out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    int32_t left = a[-1] + b[-1] + c[-1], middle = a[0] + b[0] + c[0];
+    unsigned left = 0u + a[-1] + b[-1] + c[-1], middle = 0u + a[0] + b[0] + c[0];
 
     for (int x = 0; x < count; x++) {
-        const int32_t right = a[x + 1] + b[x + 1] + c[x + 1];
-        sums[x] = left + middle + right;
+        const unsigned right = 0u + a[x + 1] + b[x + 1] + c[x + 1];
+        out[x] = (uint8_t)(((uint32_t)(left + middle + right + 4) * 7282) >> 16);
         left = middle;
         middle = right;
     }
 }
 
-void pel_row_sobel_x(const uint8_t *const rows[], uint16_t count, int32_t *sums)
+/* At most 4080. */
+static inline uint32_t binomial_column(const uint8_t *const rows[], int x)
 {
-    const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    int32_t left = a[-1] + 2 * b[-1] + c[-1], middle = a[0] + 2 * b[0] + c[0];
-
-    for (int x = 0; x < count; x++) {
-        const int32_t right = a[x + 1] + 2 * b[x + 1] + c[x + 1];
-        sums[x] = right - left;
-        left = middle;
-        middle = right;
-    }
+    return rows[0][x] + 4u * (rows[1][x] + rows[3][x]) + 6u * rows[2][x] + rows[4][x];
 }
 
-void pel_row_sobel_y(const uint8_t *const rows[], uint16_t count, int32_t *sums)
+void pel_row_binomial5(const uint8_t *const rows[], uint16_t count, uint8_t *restrict out)
 {
-    const uint8_t *const a = rows[0], *const c = rows[2];
-    int32_t left = c[-1] - a[-1], middle = c[0] - a[0];
+    uint32_t c0 = binomial_column(rows, -2), c1 = binomial_column(rows, -1);
+    uint32_t c2 = binomial_column(rows, 0), c3 = binomial_column(rows, 1);
 
     for (int x = 0; x < count; x++) {
-        const int32_t right = c[x + 1] - a[x + 1];
-        sums[x] = left + 2 * middle + right;
-        left = middle;
-        middle = right;
-    }
-}
-
-static int32_t binomial_column(const uint8_t *const rows[], int x)
-{
-    return rows[0][x] + 4 * (rows[1][x] + rows[3][x]) + 6 * rows[2][x] + rows[4][x];
-}
-
-void pel_row_binomial5(const uint8_t *const rows[], uint16_t count, int32_t *sums)
-{
-    int32_t c0 = binomial_column(rows, -2), c1 = binomial_column(rows, -1);
-    int32_t c2 = binomial_column(rows, 0), c3 = binomial_column(rows, 1);
-
-    for (int x = 0; x < count; x++) {
-        const int32_t c4 = binomial_column(rows, x + 2);
-        sums[x] = c0 + 4 * (c1 + c3) + 6 * c2 + c4;
+        const uint32_t c4 = binomial_column(rows, x + 2);
+        out[x] = (uint8_t)((c0 + 4 * (c1 + c3) + 6 * c2 + c4 + 128) >> 8);
         c0 = c1;
         c1 = c2;
         c2 = c3;
@@ -110,13 +156,27 @@ typedef struct gradient {
     int32_t x, y; /* -1020..1020 */
 } gradient;
 
-static inline gradient gradient_at(const uint8_t *const rows[], int x)
+/* Of a column: the sum 1 2 1 and the difference, lower less upper. */
+typedef struct sobel_column {
+    int32_t sum, difference;
+} sobel_column;
+
+static inline sobel_column sobel_at(const uint8_t *const rows[], int x)
 {
-    const uint8_t *const a = rows[0] + x, *const b = rows[1] + x, *const c = rows[2] + x;
+    const int32_t a = rows[0][x], b = rows[1][x], c = rows[2][x];
+    sobel_column column;
+
+    column.sum = a + 2 * b + c;
+    column.difference = c - a;
+    return column;
+}
+
+static inline gradient gradient_of(sobel_column left, sobel_column here, sobel_column right)
+{
     gradient g;
 
-    g.x = a[1] + 2 * b[1] + c[1] - a[-1] - 2 * b[-1] - c[-1];
-    g.y = c[-1] + 2 * c[0] + c[1] - a[-1] - 2 * a[0] - a[1];
+    g.x = right.sum - left.sum;
+    g.y = left.difference + 2 * here.difference + right.difference;
     return g;
 }
 
@@ -125,19 +185,95 @@ static inline int32_t magnitude(int32_t value)
     return value < 0 ? -value : value;
 }
 
-void pel_row_gradient_abs(const uint8_t *const rows[], uint16_t count, int32_t *sums)
+/* floor(sqrt(gx^2 + gy^2)): the square is at most 2080800 < 2^21, its root has 11 digits. */
+static inline int32_t length_of(gradient g)
 {
+    uint32_t value = (uint32_t)(g.x * g.x + g.y * g.y), root = 0;
+
+    for (uint32_t digit = (uint32_t)1 << 20; digit != 0; digit >>= 2) {
+        const uint32_t trial = root + digit;
+        root >>= 1;
+        if (value >= trial) {
+            value -= trial;
+            root += digit;
+        }
+    }
+    return (int32_t)root;
+}
+
+void pel_row_sobel_x(const uint8_t *const rows[], uint16_t count, int16_t *restrict out)
+{
+    sobel_column left = sobel_at(rows, -1), here = sobel_at(rows, 0);
+
     for (int x = 0; x < count; x++) {
-        const gradient g = gradient_at(rows, x);
-        sums[x] = magnitude(g.x) + magnitude(g.y);
+        const sobel_column right = sobel_at(rows, x + 1);
+        out[x] = (int16_t)gradient_of(left, here, right).x;
+        left = here;
+        here = right;
     }
 }
 
-void pel_row_gradient(const uint8_t *const rows[], uint16_t count, int32_t *sums)
+void pel_row_sobel_y(const uint8_t *const rows[], uint16_t count, int16_t *restrict out)
 {
+    sobel_column left = sobel_at(rows, -1), here = sobel_at(rows, 0);
+
     for (int x = 0; x < count; x++) {
-        const gradient g = gradient_at(rows, x);
-        sums[x] = pel_isqrt32((uint32_t)(g.x * g.x + g.y * g.y));
+        const sobel_column right = sobel_at(rows, x + 1);
+        out[x] = (int16_t)gradient_of(left, here, right).y;
+        left = here;
+        here = right;
+    }
+}
+
+void pel_row_gradient_abs(const uint8_t *const rows[], uint16_t count, uint8_t *restrict out)
+{
+    sobel_column left = sobel_at(rows, -1), here = sobel_at(rows, 0);
+
+    for (int x = 0; x < count; x++) {
+        const sobel_column right = sobel_at(rows, x + 1);
+        const gradient g = gradient_of(left, here, right);
+        out[x] = limited_u8(magnitude(g.x) + magnitude(g.y));
+        left = here;
+        here = right;
+    }
+}
+
+void pel_row_gradient_abs_s16(const uint8_t *const rows[], uint16_t count, int16_t *restrict out)
+{
+    sobel_column left = sobel_at(rows, -1), here = sobel_at(rows, 0);
+
+    for (int x = 0; x < count; x++) {
+        const sobel_column right = sobel_at(rows, x + 1);
+        const gradient g = gradient_of(left, here, right);
+        out[x] = (int16_t)(magnitude(g.x) + magnitude(g.y));
+        left = here;
+        here = right;
+    }
+}
+
+void pel_row_gradient(const uint8_t *const rows[], uint16_t count, uint8_t *restrict out)
+{
+    sobel_column left = sobel_at(rows, -1), here = sobel_at(rows, 0);
+
+    for (int x = 0; x < count; x++) {
+        const sobel_column right = sobel_at(rows, x + 1);
+        const gradient g = gradient_of(left, here, right);
+        out[x] = limited_u8(length_of(g));
+        left = here;
+        here = right;
+    }
+}
+
+void pel_row_gradient_s16(const uint8_t *const rows[], uint16_t count, int16_t *restrict out)
+{
+    sobel_column left = sobel_at(rows, -1), here = sobel_at(rows, 0);
+
+    for (int x = 0; x < count; x++) {
+        const sobel_column right = sobel_at(rows, x + 1);
+        const gradient g = gradient_of(left, here, right);
+        out[x] = (int16_t)length_of(g);
+        left = here;
+        here = right;
     }
 }
 
@@ -177,36 +313,15 @@ static int direction_of(gradient g)
     return g.y < 0 ? -d : d;
 }
 
-void pel_row_direction(const uint8_t *const rows[], uint16_t count, uint8_t *out)
+void pel_row_direction(const uint8_t *const rows[], uint16_t count, uint8_t *restrict out)
 {
+    sobel_column left = sobel_at(rows, -1), here = sobel_at(rows, 0);
+
     for (int x = 0; x < count; x++) {
-        out[x] = (uint8_t)(direction_of(gradient_at(rows, x)) & 255);
-    }
-}
-
-/* ---- Results ------------------------------------------------------------------------------- */
-
-static inline int32_t scaled(int32_t sum, const pel_row_scale *scale)
-{
-    const int32_t value = scale->absolute ? magnitude(sum) : sum;
-    const int32_t quotient = scale->divisor == 1
-                                 ? pel_round_shift(value, scale->shift)
-                                 : pel_round_div(value, (int32_t)scale->divisor << scale->shift);
-    return quotient + scale->bias;
-}
-
-void pel_row_scale_u8(const int32_t *sums, const pel_row_scale *scale, uint16_t count, uint8_t *out)
-{
-    for (uint16_t x = 0; x < count; x++) {
-        out[x] = pel_saturate_u8(scaled(sums[x], scale));
-    }
-}
-
-void pel_row_scale_s16(const int32_t *sums, const pel_row_scale *scale, uint16_t count,
-                       int16_t *out)
-{
-    for (uint16_t x = 0; x < count; x++) {
-        out[x] = pel_saturate_s16(scaled(sums[x], scale));
+        const sobel_column right = sobel_at(rows, x + 1);
+        out[x] = (uint8_t)(direction_of(gradient_of(left, here, right)) & 255);
+        left = here;
+        here = right;
     }
 }
 
@@ -237,24 +352,40 @@ static inline uint8_t largest(uint8_t a, uint8_t b, uint8_t c)
     return larger(larger(a, b), c);
 }
 
+/* The three of a column in order. */
+typedef struct column3 {
+    uint8_t low, middle, high;
+} column3;
+
+static inline column3 sorted_column(const uint8_t *const rows[], int x)
+{
+    const uint8_t a = rows[0][x], b = rows[1][x], c = rows[2][x];
+    const uint8_t low = smaller(a, b), high = larger(a, b);
+    column3 sorted;
+
+    sorted.low = smaller(low, c);
+    sorted.middle = larger(low, smaller(high, c));
+    sorted.high = larger(high, c);
+    return sorted;
+}
+
 /* The median of nine is the middle one of: the largest of the columns' smallest, the middle of
  * their middles, and the smallest of their largest (Smith 1996, after Paeth). */
-void pel_row_median3(const uint8_t *const rows[], uint16_t count, uint8_t *out)
+void pel_row_median3(const uint8_t *const rows[], uint16_t count, uint8_t *restrict out)
 {
+    column3 left = sorted_column(rows, -1), here = sorted_column(rows, 0);
+
     for (int x = 0; x < count; x++) {
-        uint8_t low[3], mid[3], high[3];
-        for (int i = 0; i < 3; i++) {
-            const uint8_t a = rows[0][x + i - 1], b = rows[1][x + i - 1], c = rows[2][x + i - 1];
-            low[i] = smallest(a, b, c);
-            mid[i] = middle_of(a, b, c);
-            high[i] = largest(a, b, c);
-        }
-        out[x] = middle_of(largest(low[0], low[1], low[2]), middle_of(mid[0], mid[1], mid[2]),
-                           smallest(high[0], high[1], high[2]));
+        const column3 right = sorted_column(rows, x + 1);
+        out[x] = middle_of(largest(left.low, here.low, right.low),
+                           middle_of(left.middle, here.middle, right.middle),
+                           smallest(left.high, here.high, right.high));
+        left = here;
+        here = right;
     }
 }
 
-void pel_row_min3(const uint8_t *const rows[], uint16_t count, uint8_t *out)
+void pel_row_min3(const uint8_t *const rows[], uint16_t count, uint8_t *restrict out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
     uint8_t left = smallest(a[-1], b[-1], c[-1]), middle = smallest(a[0], b[0], c[0]);
@@ -267,7 +398,7 @@ void pel_row_min3(const uint8_t *const rows[], uint16_t count, uint8_t *out)
     }
 }
 
-void pel_row_max3(const uint8_t *const rows[], uint16_t count, uint8_t *out)
+void pel_row_max3(const uint8_t *const rows[], uint16_t count, uint8_t *restrict out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
     uint8_t left = largest(a[-1], b[-1], c[-1]), middle = largest(a[0], b[0], c[0]);
@@ -299,7 +430,7 @@ static unsigned count_of(const uint8_t nine[9], uint8_t label)
     return count;
 }
 
-void pel_row_majority3(const uint8_t *const rows[], uint16_t count, uint8_t *out)
+void pel_row_majority3(const uint8_t *const rows[], uint16_t count, uint8_t *restrict out)
 {
     for (int x = 0; x < count; x++) {
         uint8_t nine[9], best;
@@ -318,7 +449,7 @@ void pel_row_majority3(const uint8_t *const rows[], uint16_t count, uint8_t *out
     }
 }
 
-void pel_row_erode_labels3(const uint8_t *const rows[], uint16_t count, uint8_t *out)
+void pel_row_erode_labels3(const uint8_t *const rows[], uint16_t count, uint8_t *restrict out)
 {
     for (int x = 0; x < count; x++) {
         uint8_t nine[9];
@@ -327,7 +458,7 @@ void pel_row_erode_labels3(const uint8_t *const rows[], uint16_t count, uint8_t 
     }
 }
 
-void pel_row_dilate_labels3(const uint8_t *const rows[], uint16_t count, uint8_t *out)
+void pel_row_dilate_labels3(const uint8_t *const rows[], uint16_t count, uint8_t *restrict out)
 {
     for (int x = 0; x < count; x++) {
         uint8_t nine[9], label;
