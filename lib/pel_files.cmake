@@ -5,8 +5,10 @@ set(PEL_INCLUDE_DIR ${PEL_LIB_DIR}/include)
 set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/status.c
     ${PEL_LIB_DIR}/src/fixed.c
+    ${PEL_LIB_DIR}/src/backend.c
     ${PEL_LIB_DIR}/src/overlap.c
     ${PEL_LIB_DIR}/src/row/row_c.c
+    ${PEL_LIB_DIR}/src/row/row_avx2.c
     ${PEL_LIB_DIR}/src/row/row_filter_c.c
     ${PEL_LIB_DIR}/src/row/row_point_c.c
     ${PEL_LIB_DIR}/src/row/row_feature_c.c
@@ -15,6 +17,7 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/image_read.c
     ${PEL_LIB_DIR}/src/frames.c
     ${PEL_LIB_DIR}/src/classify.c
+    ${PEL_LIB_DIR}/src/classify_plan.c
     ${PEL_LIB_DIR}/src/blobs.c
     ${PEL_LIB_DIR}/src/blobs_frame.c
     ${PEL_LIB_DIR}/src/blob_shape.c

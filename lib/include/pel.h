@@ -7,6 +7,7 @@
  *   pel/config.h     the compile-time choices: how many classes, how large a picture
  *   pel/version.h    the version, as numbers and as text
  *   pel/fixed.h      integer arithmetic: rounding, saturation, square root, atan2, reciprocal
+ *   pel/backend.h    which instructions the inner loops are made of: plain C, AVX2, NEON, ...
  *   pel/image.h      views of pictures in every camera format, and how their rows are read
  *   pel/color.h      RGB, YCbCr, normalised RGB and HSV, row by row
  *   pel/classify.h   a row of pixels becomes a row of class labels
@@ -48,6 +49,7 @@
 #include "pel/config.h"
 #include "pel/version.h"
 #include "pel/fixed.h"
+#include "pel/backend.h"
 #include "pel/image.h"
 #include "pel/color.h"
 #include "pel/classify.h"

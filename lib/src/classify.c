@@ -2,7 +2,7 @@
 
 #include "classifier.h"
 #include "format.h"
-#include "row/row.h"
+#include "row/row_select.h"
 
 /* ---- Boxes and tables ---------------------------------------------------------------------- */
 
@@ -120,17 +120,20 @@ pel_status pel_i_classify_check(const pel_classifier *classifier, const pel_crow
 pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *row, uint8_t *labels)
 {
     const pel_status status = pel_i_classify_check(classifier, row, labels);
+    const pel_classify_plan *plan;
     uint16_t width;
 
     if (status != PEL_OK) {
         return status;
     }
     width = pel_color_width(row->format, row->width);
+    plan = classifier->plan;
     if (works_in_place(classifier, row)) {
         const pel_row_boxes boxes = {classifier->boxes->y, classifier->boxes->u,
                                      classifier->boxes->v};
         const pel_row_pairs pairs = pel_i_pairs(pel_i_format(row->format), row);
-        pel_row_classify_pairs(&boxes, &pairs, width, labels);
+        pel_i_row_classify_pairs(plan ? plan->backend : PEL_ROW_BUILT_IN,
+                                 plan ? plan->nibbles : NULL, &boxes, &pairs, width, labels);
     } else {
         classify_in_chunks(classifier, row, width, labels);
     }

@@ -22,7 +22,8 @@ ARROWS = {
     "point": ["color"],
     "color": ["image"],  # for pel_range alone
     "image": ["row"],
-    "row": ["fixed", "status", "config", "overlap"],
+    "row": ["backend", "fixed", "status", "config", "overlap"],
+    "backend": ["config"],
     "overlap": [],
     "fixed": [],
     "status": ["version"],
@@ -33,8 +34,10 @@ ARROWS = {
 PARTS = {"blob": "blobs", "classifier": "classify", "format": "image", "frames": "image"}
 # lib/ runs where there is nothing but a compiler.
 LIB_SYSTEM = {"limits.h", "stdbool.h", "stddef.h", "stdint.h"}
-# Intrinsics, for the fast variants of the row kernels.
-ROW_SYSTEM = {"arm_acle.h", "arm_mve.h", "arm_neon.h", "emmintrin.h", "immintrin.h", "tmmintrin.h"}
+# What the processor is asked with.
+BACKEND_SYSTEM = {"cpuid.h"}
+EXTRA_SYSTEM = {"row": {"arm_acle.h", "arm_mve.h", "arm_neon.h", "immintrin.h", "tmmintrin.h"},
+                "backend": {"cpuid.h"}}
 # The one folder above lib/ that may look inside: it compares the row kernels with each other.
 SEES_ROW = "tests/equal"
 
@@ -78,7 +81,7 @@ def check_lib(path, kind, name):
     if module is None:
         return "this file is in no module: add it to the table in tools/dev/arrows.py"
     if kind == "<":
-        allowed = LIB_SYSTEM | (ROW_SYSTEM if module == "row" else set())
+        allowed = LIB_SYSTEM | EXTRA_SYSTEM.get(module, set())
         return None if name in allowed else f"lib/ does not include <{name}>"
     target = find_in_lib(name)
     if target is None:

@@ -1,0 +1,46 @@
+/*
+ * Which instructions the inner loops are made of.
+ *
+ * Every row kernel exists in plain C; some exist again for instruction sets that work on many
+ * pixels at once. Results do not depend on the choice, bit for bit; time does. An object chooses
+ * once, when it begins, from what its config says (0 = the best that the processor has), and keeps
+ * the choice: nothing global, and the processor is asked once per object.
+ *
+ * On x86 the choice is made at run time. Elsewhere the compiler's flags decide what there is: NEON
+ * is part of every AArch64, DSP of Armv7E-M, Helium (MVE) of cores such as the Cortex-M55.
+ */
+#ifndef PEL_BACKEND_H
+#define PEL_BACKEND_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum pel_backend {
+    PEL_BACKEND_AUTO = 0, /* the best that there is */
+    PEL_BACKEND_SCALAR,   /* plain C */
+    PEL_BACKEND_SSSE3,    /* x86, 16 bytes at a time */
+    PEL_BACKEND_AVX2,     /* x86, 32 bytes */
+    PEL_BACKEND_AVX512,   /* x86 with AVX-512 VBMI, 64 bytes */
+    PEL_BACKEND_NEON,     /* AArch64, 16 bytes */
+    PEL_BACKEND_DSP,      /* Armv7E-M (Cortex-M4, M7, M33), 4 bytes */
+    PEL_BACKEND_MVE,      /* Armv8.1-M with Helium (Cortex-M55), 16 bytes */
+    PEL_BACKEND_COUNT
+} pel_backend;
+
+/* "auto", "scalar", "ssse3", "avx2", "avx512", "neon", "dsp", "mve"; NULL for a value that is none.
+ * Static text. */
+const char *pel_backend_name(pel_backend backend);
+
+/* 1 if this build holds the backend and this processor can run it. AUTO and SCALAR: always 1. */
+int pel_backend_available(pel_backend backend);
+
+/* What a wish becomes: AUTO the best available, one that is not available SCALAR, others
+ * themselves. Asking an x86 processor takes hundreds of cycles: keep the answer. */
+pel_backend pel_backend_resolve(pel_backend wish);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

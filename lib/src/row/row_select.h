@@ -1,0 +1,56 @@
+/*
+ * Which version of a row kernel runs: the one place where backends are told apart. A version that
+ * works on whole vectors only does the first pixels, the plain one the rest.
+ */
+#ifndef PEL_ROW_SELECT_H
+#define PEL_ROW_SELECT_H
+
+#include "pel/backend.h"
+#include "row/row.h"
+#include "row/row_nibbles.h"
+#include "row/row_x86.h"
+
+/* The backend of objects that do not choose one: what the compiler's flags promise. Where that is
+ * up to the processor, plain C. */
+#define PEL_ROW_BUILT_IN PEL_BACKEND_SCALAR
+
+/* nibbles are those of the boxes; not looked at by SCALAR. */
+static inline void pel_i_row_classify_pairs(pel_backend backend, const uint8_t *nibbles,
+                                            const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                            uint16_t count, uint8_t *labels)
+{
+    pel_row_pairs rest = *src;
+    uint16_t done = 0; /* even */
+
+    switch (backend) {
+#if defined(PEL_ROW_X86)
+    case PEL_BACKEND_AVX2:
+        done = pel_row_classify_nibbles_avx2(nibbles, src, count, labels);
+        break;
+#endif
+    default:
+        (void)nibbles;
+        break;
+    }
+    if (done < count) {
+        rest.y += (size_t)done * src->y_step;
+        rest.u += (size_t)(done / 2) * src->c_step;
+        rest.v += (size_t)(done / 2) * src->c_step;
+        pel_row_classify_pairs(boxes, &rest, (uint16_t)(count - done), labels + done);
+    }
+}
+
+static inline uint16_t pel_i_row_find_runs(pel_backend backend, const uint8_t *labels,
+                                           uint16_t count, uint16_t *edges)
+{
+    switch (backend) {
+#if defined(PEL_ROW_X86)
+    case PEL_BACKEND_AVX2:
+        return pel_row_find_runs_avx2(labels, count, edges);
+#endif
+    default:
+        return pel_row_find_runs(labels, count, edges);
+    }
+}
+
+#endif

@@ -1,0 +1,38 @@
+/*
+ * What tests/equal compares: a row kernel run by a backend must give the bytes that plain C gives.
+ * A kernel is one line of a table; everything else (widths, offsets, patterns, canaries) is common.
+ */
+#ifndef EQUAL_H
+#define EQUAL_H
+
+#include <pel.h>
+
+enum {
+    EQUAL_PLANES = 5,      /* input rows at most */
+    EQUAL_MARGIN = 8,      /* bytes that a kernel may read beside a row, as its neighbours */
+    EQUAL_WIDTH_MAX = 640, /* pixels */
+    EQUAL_OUT_MAX = 4 * EQUAL_WIDTH_MAX + 64 /* bytes of result */
+};
+
+/* One run: rows of 4 bytes per pixel at most, all filled with the same kind of pattern. */
+typedef struct equal_run {
+    const uint8_t *in[EQUAL_PLANES];
+    uint8_t *out;
+    uint16_t width;
+    uint32_t seed; /* for what else the kernel needs: taps, boxes, a variant */
+} equal_run;
+
+typedef struct equal_kernel {
+    const char *name;
+    /* Runs the kernel into run->out and returns how many bytes of it are its result. */
+    size_t (*run)(pel_backend backend, const equal_run *run);
+    int even; /* 1: only even widths */
+} equal_kernel;
+
+/* The tables of the modules, ended by a kernel without name. */
+extern const equal_kernel equal_color_kernels[];
+
+/* A random number; the state moves on. */
+uint32_t equal_random(uint32_t *state);
+
+#endif
