@@ -90,10 +90,12 @@ ROW_FAST = """#include "row/row.h"
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-macros"
 #define STEP %(step)s
+#define FUNCTION __attribute__((noinline)) LOCAL
+#define LOCAL static
 enum { LANES = 4 };
 typedef int (*adder)(int);
 static const uint8_t table[2] __attribute__((aligned(4))) = {STEP, LANES};
-__attribute__((noinline)) static int add(int a) { return a + table[0] * table[1]; }
+FUNCTION int add(int a) { return a + table[0] * table[1]; }
 int pel_row_sum(int a)
 {
     const adder use = add;

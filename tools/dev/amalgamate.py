@@ -54,14 +54,19 @@ class File:
         self.is_source = path.suffix == ".c"
         self.tokens = [(match.lastgroup, match.group())
                        for match in TOKEN.finditer(path.read_text(encoding="utf-8"))]
-        self.words, self.macros = set(), set()
+        self.words = set()
+        self.macros = {}    # {name: words of its text, of every #define there is}
         self.includes = {}  # by the index of the token
         self.headers = []   # the private ones, (File, conditional), filled in by Library
         self.guard = self.find_guard()
         self.code = []
         self.scan()
+        self.names, self.exported = set(), {}
+
+    def declare(self, macros):
+        """Finds the declared names; `macros` are those of all files that this one sees."""
         try:
-            declared = Declarations(self.code, self.macros)
+            declared = Declarations(self.code, macros)
         except Problem as problem:
             raise Problem(f"{self.where}: {problem}") from None
         self.names, self.exported = declared.names, declared.exported
@@ -101,7 +106,7 @@ class File:
             raise Problem(f"{self.where}: an #if is not closed")
         if pushed:
             raise Problem(f"{self.where}: a #pragma is pushed and not popped")
-        self.macros.discard(self.guard)
+        self.macros.pop(self.guard, None)
 
     def take_directive(self, index, keyword, rest, conditional, pushed):
         """One line; the answer is by how much the stack of pragmas grows."""
@@ -116,14 +121,15 @@ class File:
                 raise Problem(f"{self.where}: '#pragma {rest.strip()}' would reach the files "
                               "behind it; push and pop it")
             return len(re.findall(r"\bpush", rest)) - len(re.findall(r"\bpop", rest))
-        self.words |= set(WORD.findall(re.sub(r"/\*.*?\*/", " ", rest, flags=re.S)))
+        words = WORD.findall(re.sub(r"/\*.*?\*/", " ", rest, flags=re.S))
+        self.words.update(words)
         if keyword == "define":
-            self.macros.add(WORD.match(rest).group())
+            self.macros.setdefault(words[0], set()).update(words[1:])
         return 0
 
     def own_names(self):
         """The names and macros that may be changed: those without the library's prefix."""
-        return {name for name in self.names | self.macros if not OURS.match(name)}
+        return {name for name in self.names | set(self.macros) if not OURS.match(name)}
 
 
 def matching(code, start, opening, closing):
@@ -178,6 +184,11 @@ class Declarations:
             else:
                 statement.append(word)
 
+    def expanded(self, word, within=()):
+        """The words that a macro may stand for, such as the static of an INLINE."""
+        words = self.macros.get(word, set()) - set(within)
+        return words.union(*(self.expanded(other, (word, *within)) for other in words))
+
     def take_type(self, statement, body):
         """The tag of a struct, union or enum, and the constants of an enum."""
         heads = [word for word in statement if word in TYPE_WORDS]
@@ -209,7 +220,8 @@ class Declarations:
                     or depth == 1 and is_pointer(statement, place)):
                 found.append(word)
         self.names.update(found)
-        if "static" not in statement and "typedef" not in statement and (defined or has_value):
+        words = set(statement).union(*(self.expanded(word) for word in statement))
+        if not {"static", "typedef"} & words and (defined or has_value):
             for name in found:
                 self.exported[name] = self.exported.get(name, True) and statement[0].conditional
 
@@ -232,6 +244,12 @@ class Library:
         self.src, self.include = root / "lib/src", root / "lib/include"
         self.known = {}
         self.sources = [self.file(path) for path in project.sources(root)]
+        for file in self.known.values():
+            macros = {}
+            for name, words in (item for seen in self.seen_from(file)
+                                for item in seen.macros.items()):
+                macros[name] = macros.get(name, set()) | words
+            file.declare(macros)
         self.public = {path.relative_to(self.include).as_posix(): File(path, path.name)
                        for path in project.public_headers(root)}
         self.public_words = set().union(*(file.words for file in self.public.values()))
@@ -294,7 +312,7 @@ def check_macros(library):
                               f"{', '.join(others) or 'the public headers'}")
         if file.is_source:
             for header in library.seen_from(file)[1:]:
-                for name in sorted(file.macros & header.words):
+                for name in sorted(set(file.macros) & header.words):
                     raise Problem(f"{header.where} depends on the macro {name} of {file.where}")
 
 
