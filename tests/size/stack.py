@@ -20,6 +20,10 @@ INDIRECT = (
     (r"\bon_blob\(", None),
     (r"\bon_corner\(", None),
     (r"\bon_response\(", None),
+    (r"->accept\(|config\.accept\(", r"pel_blob_shape_passes"),
+    (r"\breader\(", r"pel_crow_read_\w+"),
+    (r"\bread\(row", r"rgb_of_\w+"),
+    (r"\bop\(|\bop_s16\(", r"pel_op_\w+"),
 )
 
 NODE = re.compile(r'node: \{ title: "([^"]+)" label: "[^"]*?\\n(\d+) bytes \(([^)]*)\)')

@@ -29,7 +29,7 @@ static void forget_boxes(void)
 static pel_classifier classifier_of_boxes(void)
 {
     const pel_classifier classifier = {
-        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
+        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
     return classifier;
 }
 
@@ -345,7 +345,7 @@ static void test_the_cell_of_a_colour_is_its_top_bits(void)
                                            {cells, bits[i][0], bits[i][1], bits[i][2]},
                                            PEL_RANGE_FULL,
                                            NULL,
-                                           pel_crow_read_yuv};
+                                           .reader = pel_crow_read_yuv};
         const unsigned size = 1u << (yb + ub + vb);
         TEST_ASSERT_EQUAL_UINT(size, pel_lut_bytes(yb, ub, vb));
         TEST_ASSERT_EQUAL_UINT(size, PEL_LUT_BYTES(yb, ub, vb));
@@ -364,7 +364,7 @@ static void test_the_cell_of_a_colour_is_its_top_bits(void)
 static void test_a_table_classifies_rows_of_every_format(void)
 {
     const pel_classifier classifier = {
-        NULL, {cells, 4, 3, 3}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
+        NULL, {cells, 4, 3, 3}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
     for (unsigned i = 0; i < sizeof cells; i++) {
         cells[i] = (uint8_t)(i * 37);
     }
@@ -378,7 +378,7 @@ static void test_boxes_come_before_a_table(void)
 {
     static const pel_color_box anything = {0, 255, 0, 255, 0, 255};
     const pel_classifier classifier = {
-        &boxes, {cells, 0, 0, 0}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
+        &boxes, {cells, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
     forget_boxes();
     pel_boxes_set(&boxes, 4, &anything);
     cells[0] = 99;
@@ -412,7 +412,7 @@ static void test_several_boxes_can_stand_for_one_colour(void)
 static void test_a_table_may_use_every_label(void)
 {
     const pel_classifier classifier = {
-        NULL, {cells, 8, 0, 0}, PEL_RANGE_FULL, map, pel_crow_read_yuv};
+        NULL, {cells, 8, 0, 0}, PEL_RANGE_FULL, map, .reader = pel_crow_read_yuv};
     for (unsigned i = 0; i < 256; i++) {
         cells[i] = (uint8_t)(255 - i);
         map[i] = (uint8_t)(i ^ 0x55u);
@@ -523,9 +523,9 @@ static void test_rows_that_cannot_be_are_refused(void)
 static void test_a_classifier_without_classes_is_refused(void)
 {
     static const pel_classifier nothing = {
-        NULL, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
+        NULL, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
     static const pel_classifier too_fine = {
-        NULL, {cells, 9, 0, 0}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
+        NULL, {cells, 9, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
     const pel_crow row = long_row(PEL_YUYV);
     uint8_t labels[LONG];
     TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_classify_row(&nothing, &row, labels));

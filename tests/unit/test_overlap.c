@@ -85,7 +85,7 @@ static void test_labels_do_not_overwrite_their_row(void)
 {
     static pel_boxes boxes;
     const pel_classifier classifier = {
-        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
+        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
     const pel_crow yuyv = pel_crow_packed(memory + 32, PEL_YUYV, PEL_RANGE_FULL, 8);
     const pel_crow nv12 = {{memory + 32, memory + 64, NULL}, 8, PEL_NV12, PEL_RANGE_FULL};
     const pel_crow bayer = {{memory + 32, memory + 64, NULL}, 8, PEL_BAYER8_RGGB, PEL_RANGE_FULL};
@@ -106,7 +106,7 @@ static void test_frames_do_not_overwrite_themselves(void)
     static pel_boxes boxes;
     static uint64_t work[PEL_BLOBS_WORDS(4, 4, 0)];
     const pel_classifier classifier = {
-        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
+        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
     pel_blobs_config config = {0};
     pel_blobs blobs;
     pel_cview view[2];
@@ -159,7 +159,7 @@ static void test_a_finder_does_not_read_what_it_writes(void)
     static pel_blob results[2];
     static pel_boxes boxes;
     const pel_classifier classifier = {
-        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
+        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
     pel_blobs_config config = {0};
     pel_blobs blobs = {0};
     pel_cview view;
@@ -215,7 +215,8 @@ static void test_a_refused_frame_leaves_the_labels_alone(void)
 {
     static uint64_t work[PEL_BLOBS_WORDS(8, 8, 0)];
     static pel_boxes boxes;
-    pel_classifier classifier = {&boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, pel_crow_read_yuv};
+    pel_classifier classifier = {
+        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
     pel_blobs_config config = {0};
     pel_blobs blobs = {0};
     pel_cview view;

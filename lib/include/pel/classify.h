@@ -87,11 +87,11 @@ pel_status pel_classify_plan_make(pel_classify_plan *plan, const pel_boxes *boxe
  */
 typedef struct pel_classifier {
     const pel_boxes *boxes;
-    const pel_classify_plan *plan; /* of these boxes, or NULL */
     pel_lut lut;
     pel_range range;
     const uint8_t *relabel;
     pel_reader *reader;
+    const pel_classify_plan *plan; /* of these boxes; NULL: plain C */
 } pel_classifier;
 
 /*

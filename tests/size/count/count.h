@@ -51,6 +51,14 @@ typedef struct job {
     const void *data;
 } job;
 
+/* The data of a filter's line: an operator, or a kernel, or the name of one. */
+typedef struct filter_choice {
+    pel_filter_op *op, *second; /* second: of two filters, one on the result of the other */
+    pel_filter_op_s16 *op_s16;
+    const pel_kernel *kernel;
+    const char *name;
+} filter_choice;
+
 /* How an operator runs. Any of these may be missing; counted is what does not say otherwise. Those
  * that return a number say how many bytes of output_row they made; the bytes go into the checksum,
  * which is the same on all boards. */
@@ -66,7 +74,7 @@ struct family {
 
 extern const family classify_boxes, classify_table, classify_runs, runs_of_labels, chain;
 extern const family read_yuv, read_rgb, color_row;
-extern const family filter_row, filter_named, filter_named_s16, filter_two;
+extern const family filter_row, filter_row_s16, filter_two;
 extern const family table_fill, table_row, combine_row, blend_row, histogram_row, otsu, equalize;
 extern const family integral_row, adaptive_row, resize_row, sums_row, balance_row;
 extern const family corner_rows, corner_refine, canny_rows, canny_link, canny_hysteresis;

@@ -39,12 +39,21 @@ static const pel_kernel generic5 = {
 #define READ_YUV(format) FEED_CAMERA, &read_yuv, PEL_##format, 0, NULL
 #define READ_RGB(format) FEED_CAMERA, &read_rgb, PEL_##format, 0, NULL
 #define CHAIN(measure) FEED_CAMERA, &chain, PEL_YUYV, measure, NULL
-#define KERNEL(kernel) FEED_GRAY, &filter_row, PEL_FILTER_KERNEL, PEL_BORDER_REPLICATE, kernel
-#define NAMED(name) FEED_GRAY, &filter_named, PEL_FILTER_KERNEL, PEL_BORDER_REPLICATE, name
-#define NAMED_S16(name) FEED_GRAY, &filter_named_s16, PEL_FILTER_KERNEL, PEL_BORDER_REPLICATE, name
-#define FILTER(op) FEED_GRAY, &filter_row, PEL_FILTER_##op, PEL_BORDER_REPLICATE, NULL
-#define LABEL_FILTER(op) FEED_LABELS, &filter_row, PEL_FILTER_##op, PEL_BORDER_REPLICATE, NULL
-#define BORDER(border) FEED_GRAY, &filter_row, PEL_FILTER_KERNEL, PEL_BORDER_##border, &generic3
+#define FILTER_OF(feed, family, ...)                                                               \
+    feed, family, 0, PEL_BORDER_REPLICATE, &(const filter_choice)                                  \
+    {                                                                                              \
+        __VA_ARGS__                                                                                \
+    }
+#define KERNEL(taps) FILTER_OF(FEED_GRAY, &filter_row, .kernel = taps)
+#define NAMED(by_name) FILTER_OF(FEED_GRAY, &filter_row, .name = by_name)
+#define FILTER(of) FILTER_OF(FEED_GRAY, &filter_row, .op = pel_op_##of)
+#define FILTER_S16(of) FILTER_OF(FEED_GRAY, &filter_row_s16, .op_s16 = pel_op_##of##_s16)
+#define LABEL_FILTER(of) FILTER_OF(FEED_LABELS, &filter_row, .op = pel_op_##of)
+#define BORDER(border)                                                                             \
+    FEED_GRAY, &filter_row, 0, PEL_BORDER_##border, &(const filter_choice)                         \
+    {                                                                                              \
+        .kernel = &generic3                                                                        \
+    }
 #define COMBINE(op) FEED_TWO_GRAYS, &combine_row, PEL_COMBINE_##op, 0, NULL
 #define RESIZE(method, width) FEED_GRAY, &resize_row, PEL_RESIZE_##method, width, NULL
 #define CORNERS(method, least) FEED_GRAY, &corner_rows, PEL_CORNERS_##method, least, NULL
@@ -88,10 +97,10 @@ static const job jobs[] = {
 
     {"filter identity", "synth", NAMED("identity")},
     {"filter shift_left", "synth", NAMED("shift_left")},
-    {"filter box3", "synth", NAMED("box3")},
-    {"filter gauss3", "synth", NAMED("gauss3")},
+    {"filter box3", "synth", FILTER(box3)},
+    {"filter gauss3", "synth", FILTER(gauss3)},
     {"filter gauss5", "synth", NAMED("gauss5")},
-    {"filter binomial5", "synth", NAMED("binomial5")},
+    {"filter binomial5", "synth", FILTER(binomial5)},
     {"filter sobel_x", "synth", NAMED("sobel_x")},
     {"filter sobel_y", "synth", NAMED("sobel_y")},
     {"filter scharr_x", "synth", NAMED("scharr_x")},
@@ -101,8 +110,8 @@ static const job jobs[] = {
     {"filter sharpen", "synth", NAMED("sharpen")},
     {"filter sharpen5", "synth", NAMED("sharpen5")},
     {"filter emboss", "synth", NAMED("emboss")},
-    {"filter sobel_x, 16 bits", "synth", NAMED_S16("sobel_x")},
-    {"filter sobel_y, 16 bits", "synth", NAMED_S16("sobel_y")},
+    {"filter sobel_x, 16 bits", "synth", FILTER_S16(sobel_x)},
+    {"filter sobel_y, 16 bits", "synth", FILTER_S16(sobel_y)},
     {"filter generic 3x3", "synth", KERNEL(&generic3)},
     {"filter generic 3x3, divisor", "synth", KERNEL(&generic3_divided)},
     {"filter generic 3x3, symmetric", "synth", BORDER(SYMMETRIC)},
@@ -110,15 +119,15 @@ static const job jobs[] = {
     {"filter generic 3x3, constant", "synth", BORDER(CONSTANT)},
     {"filter generic 3x3, valid", "synth", BORDER(VALID)},
     {"filter generic 5x5", "synth", KERNEL(&generic5)},
-    {"filter gradient abs", "synth", FILTER(GRADIENT_ABS)},
-    {"filter gradient", "synth", FILTER(GRADIENT)},
-    {"filter direction", "synth", FILTER(DIRECTION)},
-    {"filter median", "synth", FILTER(MEDIAN)},
-    {"filter min", "synth", FILTER(MIN)},
-    {"filter max", "synth", FILTER(MAX)},
-    {"filter majority", "synth", LABEL_FILTER(MAJORITY)},
-    {"filter erode labels", "synth", LABEL_FILTER(ERODE_LABELS)},
-    {"filter dilate labels", "synth", LABEL_FILTER(DILATE_LABELS)},
+    {"filter gradient abs", "synth", FILTER(gradient_abs)},
+    {"filter gradient", "synth", FILTER(gradient)},
+    {"filter direction", "synth", FILTER(direction)},
+    {"filter median", "synth", FILTER(median)},
+    {"filter min", "synth", FILTER(min)},
+    {"filter max", "synth", FILTER(max)},
+    {"filter majority", "synth", LABEL_FILTER(majority)},
+    {"filter erode labels", "synth", LABEL_FILTER(erode_labels)},
+    {"filter dilate labels", "synth", LABEL_FILTER(dilate_labels)},
 
     {"table row", "synth", FEED_GRAY, &table_row, 0, 0, NULL},
     {"table linear", "synth", FEED_GRAY, &table_fill, 0, 0, NULL},
@@ -149,7 +158,8 @@ static const job jobs[] = {
     {"scan rows", "synth", FEED_LABELS, &scan_rows, 0, 0, NULL},
     {"scan rows and line fit", "synth", FEED_LABELS, &line_fit, 32, 3, NULL},
 #if !COUNT_SMALL
-    {"frame open", "synth", FEED_FRAME, &filter_two, PEL_FILTER_MIN, PEL_FILTER_MAX, NULL},
+    {"frame open", "synth", FEED_FRAME, &filter_two, 0, PEL_BORDER_REPLICATE,
+     &(const filter_choice){.op = pel_op_min, .second = pel_op_max}},
     {"frame corners refine", "synth", FEED_FRAME, &corner_refine, 0, 100000, NULL},
     {"frame edges hysteresis", "synth", FEED_FRAME, &canny_hysteresis, 150, 300, NULL},
 #endif

@@ -4,23 +4,18 @@
 static pel_filter filter;
 static pel_filter_config config;
 
-static const pel_kernel *kernel;
-
-static void take_kernel(const job *j)
+static void take_filter(const job *j)
 {
-    kernel = j->data;
+    const filter_choice *const choice = j->data;
+
+    config.op = choice->op;
+    config.op_s16 = choice->op_s16;
+    config.kernel = choice->name ? pel_kernel_named(choice->name) : choice->kernel;
 }
 
-static void take_named_kernel(const job *j)
-{
-    kernel = pel_kernel_named(j->data);
-}
-
-/* choice: the operator; other: the border; data: a kernel, or the name of one. */
+/* other: the border; data: a filter_choice. */
 static void begin_filter(const job *j)
 {
-    config.op = (pel_filter_op)j->choice;
-    config.kernel = kernel;
     config.border = (pel_border)j->other;
     config.constant = 90;
     config.width = WIDTH;
@@ -54,21 +49,16 @@ static uint32_t look_at_filter(void)
     return filter.row;
 }
 
-const family filter_row = {.ready = take_kernel,
+const family filter_row = {.ready = take_filter,
                            .begin = begin_filter,
                            .push = push_filter,
                            .pull = pull_filter,
                            .look = look_at_filter};
-const family filter_named = {.ready = take_named_kernel,
-                             .begin = begin_filter,
-                             .push = push_filter,
-                             .pull = pull_filter,
-                             .look = look_at_filter};
-const family filter_named_s16 = {.ready = take_named_kernel,
-                                 .begin = begin_filter,
-                                 .push = push_filter,
-                                 .pull = pull_filter_s16,
-                                 .look = look_at_filter};
+const family filter_row_s16 = {.ready = take_filter,
+                               .begin = begin_filter,
+                               .push = push_filter,
+                               .pull = pull_filter_s16,
+                               .look = look_at_filter};
 
 #if !COUNT_SMALL
 static uint32_t end_two(const job *j)
@@ -79,8 +69,8 @@ static uint32_t end_two(const job *j)
     config.work_bytes = WORK_BYTES;
     done(pel_view_init(frame, PEL_GRAY8, PEL_RANGE_FULL, WIDTH, HEIGHT, 0, &view));
     const pel_cview source = pel_view_to_read(&view);
-    done(pel_filter_twice(&config, (pel_filter_op)j->choice, (pel_filter_op)j->other, &source,
-                          &view));
+    const filter_choice *const choice = j->data;
+    done(pel_filter_twice(&config, choice->op, choice->second, &source, &view));
     return 0;
 }
 
