@@ -178,9 +178,10 @@ pel_status pel_crow_read_rgb(const pel_crow *row, uint16_t x, uint16_t count, ui
         const pel_row_pairs pairs = pel_i_pairs(info, row);
         convert_pairs(&pairs, x, count, row->range == PEL_RANGE_LIMITED, rgb);
     } else {
-        (info->layout == PEL_LAYOUT_RGB24    ? rgb_of_rgb24
-         : info->layout == PEL_LAYOUT_RGB565 ? rgb_of_rgb565
-                                             : rgb_of_bayer)(row, x, count, rgb);
+        rgb_reader *const read = info->layout == PEL_LAYOUT_RGB24    ? rgb_of_rgb24
+                                 : info->layout == PEL_LAYOUT_RGB565 ? rgb_of_rgb565
+                                                                     : rgb_of_bayer;
+        read(row, x, count, rgb);
     }
     return PEL_OK;
 }

@@ -104,7 +104,11 @@ def public_functions():
     for path in sorted((firmware.ROOT / "lib/include").rglob("*.h")):
         text = re.sub(r"/\*.*?\*/", "", path.read_text(), flags=re.S)
         text = re.sub(r"^\s*#(?:[^\n]*\\\n)*[^\n]*", "", text, flags=re.M)
-        names |= set(re.findall(r"\b(pel_[a-z0-9_]+)\s*\(", text))
+        types = re.findall(r"typedef\s[^;{}]*?\b(pel_\w+)\s*\(", text)
+        names |= set(re.findall(r"\b(pel_[a-z0-9_]+)\s*\(", text)) - set(types)
+        for kind in types:  # pel_reader pel_crow_read_ycbcr, ...;
+            for declared in re.findall(rf"^{kind}\s([^;()]+);", text, flags=re.M):
+                names |= set(re.findall(r"\w+", declared))
     return names
 
 
