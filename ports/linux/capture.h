@@ -55,6 +55,8 @@ const char *capture_status_name(capture_status status);
 
 /* ---- What to open -------------------------------------------------------------------------- */
 
+enum { CAPTURE_PATH_BYTES = 256, CAPTURE_BUFFERS_MIN = 2, CAPTURE_BUFFERS_MAX = 32 };
+
 typedef enum capture_backend { CAPTURE_V4L2 = 0, CAPTURE_LIBCAMERA } capture_backend;
 
 /* 1 if this build holds the backend. */
@@ -81,7 +83,7 @@ typedef struct capture_wish {
 
 /* What the driver really set: read it before the first frame. */
 typedef struct capture_settings {
-    char path[64]; /* "/dev/video0"; libcamera: the camera's id */
+    char path[CAPTURE_PATH_BYTES]; /* "/dev/video0"; libcamera: the camera's id */
     char card[64], driver[32], bus[64];
     uint32_t fourcc;
     pel_format format; /* of the views; for compressed frames RGB888 once decoded */
@@ -224,7 +226,7 @@ uint32_t capture_control_id(capture *camera, capture_known known);
 /* ---- What there is ------------------------------------------------------------------------- */
 
 typedef struct capture_device {
-    char path[64]; /* what capture_wish.device takes; libcamera: the camera's id */
+    char path[CAPTURE_PATH_BYTES]; /* what capture_wish.device takes; libcamera: the id */
     char card[64], driver[32], bus[64];
     capture_status status; /* CAPTURE_OK; or why it could not be looked at: ACCESS, BUSY */
 } capture_device;
