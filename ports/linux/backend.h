@@ -62,6 +62,8 @@ struct capture {
     capture_kept kept[CAPTURE_KEPT_MAX];
     unsigned kept_count;
     int opened;  /* open succeeded */
+    int looking; /* set by the backend if open answers CAPTURE_ERR_BUSY, but modes and controls can
+                  * be read all the same */
     int started; /* kept by the front */
     char changes[CAPTURE_TEXT_BYTES];
     char error[CAPTURE_TEXT_BYTES];
@@ -86,6 +88,9 @@ void capture_copy_text(char *to, size_t to_bytes, const char *from, size_t from_
 
 /* How many of the formats that pel reads come before this one; -1 if pel does not read it. */
 int capture_format_rank(uint32_t fourcc);
+
+/* The format of a rank; 0 if there are not so many. */
+uint32_t capture_format_at(int rank);
 
 /* 1 for formats of Y, U and V, whose range plays a part. */
 int capture_format_has_range(uint32_t fourcc);

@@ -10,7 +10,9 @@ enum { BUFFERS_DEFAULT = 4, RESTART_DEFAULT = 3 };
 
 static const struct capture_ops *ops_of(capture_backend backend)
 {
-    (void)backend;
+    if (backend == CAPTURE_V4L2) {
+        return capture_v4l2_ops();
+    }
 #ifdef CAPTURE_HAVE_LIBCAMERA
     if (backend == CAPTURE_LIBCAMERA) {
         return capture_libcamera_ops();
@@ -308,7 +310,7 @@ static capture_status check_open(capture *camera)
         return CAPTURE_ERR_ARG;
     }
     camera->error[0] = '\0';
-    if (!camera->opened && !camera->state) {
+    if (!camera->opened && !camera->looking) {
         return capture_fail(camera, CAPTURE_ERR_ORDER, "the camera is not open");
     }
     return CAPTURE_OK;

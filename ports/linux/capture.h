@@ -73,15 +73,17 @@ typedef struct capture_wish {
     capture_backend backend;
     const char *device;
     uint32_t fourcc;             /* V4L2's code, 0 = any format that pel reads, best first */
-    unsigned width, height;      /* pixels; 0: the camera's default (or the nearest to 640x480) */
+    unsigned width, height;      /* pixels; one of them 0: any; both: the nearest to 640x480 */
     unsigned rate_num, rate_den; /* frames per second = num / den; 0: what the camera gives */
     unsigned buffers;            /* in the driver's queue, 2..32; 0 = 4 */
     int newest;                  /* 1: capture_next skips to the newest frame (counted as stale) */
-    unsigned restart_after;      /* time-outs in a row before the stream restarts; 0 = 3 */
+    unsigned restart_after;      /* time-outs in a row before the stream restarts; 0 = 3. Never
+                                  * before a second, or four frames, of silence */
     unsigned return_ms;          /* how long to wait for an unplugged camera; 0 = do not */
 } capture_wish;
 
-/* What the driver really set: read it before the first frame. */
+/* What the driver really set: read it before the first frame (after capture_start, for buffers). A
+ * reopened camera may have another path, stride and number of buffers; format and size stay. */
 typedef struct capture_settings {
     char path[CAPTURE_PATH_BYTES]; /* "/dev/video0"; libcamera: the camera's id */
     char card[64], driver[32], bus[64];
@@ -98,14 +100,15 @@ typedef struct capture_settings {
 
 /* ---- Frames -------------------------------------------------------------------------------- */
 
-/* A frame in the driver's memory, valid until it is given back or the camera is stopped. */
+/* A frame in the driver's memory, valid until it is given back or the camera is stopped, even if
+ * the stream is restarted or the camera unplugged meanwhile. */
 typedef struct capture_frame {
     pel_cview view;       /* plane[0] = NULL for compressed frames */
     const uint8_t *bytes; /* all that arrived */
     size_t byte_count;
-    uint64_t sequence;     /* counted by the driver from 0, carried on past 2^32 */
-    uint64_t timestamp_us; /* of the driver's clock; never goes back within a stream */
-    uint32_t missed;       /* frames that the driver dropped just before this one */
+    uint64_t sequence; /* as the driver counts, carried on past 2^32 and restarts: it only grows */
+    uint64_t timestamp_us; /* of the driver's clock; never goes back from start to stop */
+    uint32_t missed;       /* gaps in the driver's numbers since the frame delivered before */
     unsigned slot;         /* private */
 } capture_frame;
 
@@ -116,9 +119,9 @@ typedef struct capture_counts {
     uint64_t stale;        /* skipped because a newer one was there */
     uint64_t damaged;      /* error flag set: dropped */
     uint64_t short_frames; /* too few bytes: dropped */
-    uint64_t timeouts;
-    uint64_t restarts;    /* of the stream, after time-outs or EIO */
-    uint64_t reopens;     /* of the device, after it was unplugged */
+    uint64_t timeouts;     /* waits in vain; a deadline of 0 is no wait */
+    uint64_t restarts;     /* of the stream, after time-outs, EIO and the like */
+    uint64_t reopens; /* of the device, after it was unplugged or did not let itself be restarted */
     uint64_t interrupted; /* system calls that a signal ended early: repeated */
 } capture_counts;
 
@@ -133,6 +136,7 @@ struct v4l2_calls;
  * Opens and negotiates. Always sets *camera unless memory is out, so that capture_error can be
  * read; capture_close it also after a failure. CAPTURE_CHANGED: open, but format, size or rate are
  * not as wished (see capture_get_settings; `capture_changes` says it in words).
+ * After CAPTURE_ERR_BUSY of a V4L2 camera its modes and controls can still be read.
  */
 capture_status capture_open(const capture_wish *wish, const struct v4l2_calls *calls,
                             capture **camera);
@@ -147,8 +151,13 @@ const char *capture_changes(const capture *camera);
  * "" if nothing did. Valid until the next call. */
 const char *capture_error(const capture *camera);
 
+/* CAPTURE_ERR_BUSY, CAPTURE_ERR_GONE, CAPTURE_ERR_FORMAT (another program has changed the format
+ * meanwhile, and it cannot be set back), CAPTURE_ERR_SYSTEM: nothing is held, start may be tried
+ * again. CAPTURE_ERR_ORDER: started already, or not open. */
 capture_status capture_start(capture *camera);
-capture_status capture_stop(capture *camera); /* all frames are taken back; start may follow */
+
+/* Takes all frames back and lets go of the driver's memory; start may follow. */
+capture_status capture_stop(capture *camera);
 
 /*
  * The next frame, within `deadline_ms` (0: only what is there). Heals on the way, inside the
@@ -156,12 +165,13 @@ capture_status capture_stop(capture *camera); /* all frames are taken back; star
  * `restart_after` time-outs in a row and after EIO the stream restarts; after ENODEV the device is
  * closed and, if the wish has return_ms, waited for and opened again with the same settings.
  * CAPTURE_TIMEOUT, CAPTURE_ERR_GONE (for good: only close is left), CAPTURE_ERR_ORDER (not started,
- * or the caller holds every buffer), CAPTURE_ERR_SYSTEM.
+ * or the caller holds as many frames as there are buffers), CAPTURE_ERR_SYSTEM, CAPTURE_ERR_BUSY and
+ * CAPTURE_ERR_FORMAT (restarting failed until the deadline; the next call tries again).
  */
 capture_status capture_next(capture *camera, unsigned deadline_ms, capture_frame *frame);
 
-/* Gives the driver its memory back. CAPTURE_ERR_ARG: not a frame that is out. A frame from before a
- * restart is taken without complaint. */
+/* Gives the driver its memory back and empties *frame. CAPTURE_ERR_ARG: not a frame that is out. A
+ * frame from before a restart, a reopen or a stop is taken without complaint. */
 capture_status capture_give_back(capture *camera, capture_frame *frame);
 
 void capture_get_counts(const capture *camera, capture_counts *counts);
@@ -215,7 +225,7 @@ capture_status capture_menu_item(capture *camera, uint32_t id, int32_t index, ch
 /*
  * Sets, then reads back into *actual (may be NULL). CAPTURE_CHANGED: the driver took another value
  * or ignored it. CAPTURE_ERR_NONE: the camera has no such control. CAPTURE_ERR_ARG: outside
- * min..max, or read-only.
+ * min..max, or read-only. What was set is set again after a reopen.
  */
 capture_status capture_set(capture *camera, uint32_t id, int32_t value, int32_t *actual);
 capture_status capture_get(capture *camera, uint32_t id, int32_t *value);

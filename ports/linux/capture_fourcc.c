@@ -38,6 +38,13 @@ int capture_format_rank(uint32_t fourcc)
     return -1;
 }
 
+uint32_t capture_format_at(int rank)
+{
+    const int count = (int)(sizeof code_formats / sizeof code_formats[0]);
+
+    return rank >= 0 && rank < count ? code_formats[rank].fourcc : 0;
+}
+
 int capture_format_has_range(uint32_t fourcc)
 {
     const int rank = capture_format_rank(fourcc);
