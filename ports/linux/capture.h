@@ -165,8 +165,8 @@ capture_status capture_stop(capture *camera);
  * `restart_after` time-outs in a row and after EIO the stream restarts; after ENODEV the device is
  * closed and, if the wish has return_ms, waited for and opened again with the same settings.
  * CAPTURE_TIMEOUT, CAPTURE_ERR_GONE (for good: only close is left), CAPTURE_ERR_ORDER (not started,
- * or the caller holds as many frames as there are buffers), CAPTURE_ERR_SYSTEM, CAPTURE_ERR_BUSY and
- * CAPTURE_ERR_FORMAT (restarting failed until the deadline; the next call tries again).
+ * or the caller holds as many frames as there are buffers), CAPTURE_ERR_SYSTEM, CAPTURE_ERR_BUSY
+ * and CAPTURE_ERR_FORMAT (restarting failed until the deadline; the next call tries again).
  */
 capture_status capture_next(capture *camera, unsigned deadline_ms, capture_frame *frame);
 

@@ -141,7 +141,7 @@ static capture_status open_listed(capture *camera)
     if (!list) {
         return capture_fail(camera, CAPTURE_ERR_SYSTEM, "not enough memory");
     }
-    count = v4l2_list(camera->calls, list, LIST_MAX);
+    count = v4l2_list(camera->calls, &camera->counts.interrupted, list, LIST_MAX);
     if (camera->wish.device) {
         status = find_named(camera, list, count, &found);
         if (status == CAPTURE_OK) {
@@ -189,6 +189,7 @@ static void v4l2_close(capture *camera)
 static capture_status v4l2_start(capture *camera)
 {
     v4l2_camera *const v4l2 = v4l2_state(camera);
+    const int was_lost = v4l2->lost;
     capture_status status = CAPTURE_OK;
 
     if (v4l2->gone || (v4l2->lost && v4l2_return_ms(camera) == 0)) {
@@ -205,6 +206,9 @@ static capture_status v4l2_start(capture *camera)
         if (status == CAPTURE_ERR_GONE) {
             v4l2_lose(camera);
         }
+    }
+    if (status == CAPTURE_OK && was_lost) {
+        camera->counts.reopens++;
     }
     return status;
 }
@@ -387,12 +391,17 @@ static capture_status v4l2_next(capture *camera, unsigned deadline_ms, capture_f
     return status == CAPTURE_TIMEOUT ? timed_out(camera, deadline_ms) : status;
 }
 
+static int list_cameras(const struct v4l2_calls *calls, capture_device *devices, size_t max)
+{
+    return v4l2_list(calls, NULL, devices, max);
+}
+
 const struct capture_ops *capture_v4l2_ops(void)
 {
     static const struct capture_ops ops = {
-        v4l2_open,      v4l2_close,    v4l2_start,     v4l2_stop,  v4l2_next,
-        v4l2_give_back, v4l2_controls, v4l2_menu_item, v4l2_query, v4l2_get,
-        v4l2_set,       v4l2_known,    v4l2_modes,     v4l2_list,
+        v4l2_open,      v4l2_close,    v4l2_start,     v4l2_stop,    v4l2_next,
+        v4l2_give_back, v4l2_controls, v4l2_menu_item, v4l2_query,   v4l2_get,
+        v4l2_set,       v4l2_known,    v4l2_modes,     list_cameras,
     };
 
     return &ops;

@@ -171,7 +171,8 @@ void v4l2_device_close(v4l2_device *device)
     }
 }
 
-int v4l2_list(const struct v4l2_calls *calls, capture_device *devices, size_t max)
+int v4l2_list(const struct v4l2_calls *calls, uint64_t *interrupted, capture_device *devices,
+              size_t max)
 {
     size_t found = 0;
 
@@ -181,6 +182,7 @@ int v4l2_list(const struct v4l2_calls *calls, capture_device *devices, size_t ma
 
         memset(&device, 0, sizeof device);
         device.calls = calls;
+        device.interrupted = interrupted;
         snprintf(device.path, sizeof device.path, "/dev/video%u", number);
         status = v4l2_device_open(&device);
         v4l2_device_close(&device);

@@ -73,7 +73,7 @@ static int find_moved(capture *camera, v4l2_device *device)
     if (!list) {
         return 0;
     }
-    count = v4l2_list(camera->calls, list, LIST_MAX);
+    count = v4l2_list(camera->calls, &camera->counts.interrupted, list, LIST_MAX);
     for (int i = 0; i < count && i < LIST_MAX; i++) {
         const int same =
             list[i].status == CAPTURE_OK && is_same_model(camera, list[i].card, list[i].driver);

@@ -37,8 +37,9 @@ capture_status v4l2_status_of(int error);
 enum { V4L2_REASON_BYTES = 80 };
 const char *v4l2_reason(int error, char text[V4L2_REASON_BYTES]);
 
-/* The devices there are, as capture_list. */
-int v4l2_list(const struct v4l2_calls *calls, capture_device *devices, size_t max);
+/* The devices there are, as capture_list. `interrupted` as above. */
+int v4l2_list(const struct v4l2_calls *calls, uint64_t *interrupted, capture_device *devices,
+              size_t max);
 
 /* ---- The camera ---------------------------------------------------------------------------- */
 
