@@ -95,8 +95,7 @@ static int set_picture(v4l2_device *device, uint32_t fourcc, unsigned width, uns
     }
     read_picture(device, &format, out);
     /* What holds is what the driver says when it is asked again, if it can be. */
-    get_picture(device, out);
-    return 0;
+    return get_picture(device, out) == 0 || errno == EINVAL || errno == ENOTTY ? 0 : -1;
 }
 
 /* ---- From what the driver says to settings ------------------------------------------------- */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { REOPEN_PAUSE_MS = 100, RESTART_PAUSE_MS = 50, STUBBORN_MS = 1000 };
+enum { REOPEN_PAUSE_MS = 100, RESTART_PAUSE_MS = 50, STUBBORN_MS = 3000 };
 
 unsigned v4l2_return_ms(const capture *camera)
 {
@@ -132,6 +132,7 @@ capture_status v4l2_reopen(capture *camera)
         return capture_fail(camera, CAPTURE_ERR_GONE, "%.200s: unplugged", v4l2->device.path);
     }
     v4l2->device = device;
+    v4l2->allocated = 0; /* nothing outlives the closing */
     status = set_again(camera);
     if (status != CAPTURE_OK) {
         v4l2_device_close(&v4l2->device);

@@ -51,6 +51,7 @@ static capture_status request_buffers(capture *camera)
         return capture_fail(camera, CAPTURE_ERR_SYSTEM, "%.200s: the driver gives no buffers",
                             v4l2->device.path);
     }
+    v4l2->allocated = 1;
     v4l2->count = request.count < CAPTURE_BUFFERS_MAX ? request.count : CAPTURE_BUFFERS_MAX;
     camera->settings.buffers = v4l2->count;
     return CAPTURE_OK;
@@ -129,11 +130,31 @@ static capture_status queue_all(capture *camera)
     return stream_on(camera);
 }
 
+/* Makes the driver let go of its buffers. 0, or -1 with errno. */
+static int free_buffers(v4l2_camera *v4l2)
+{
+    struct v4l2_requestbuffers none;
+
+    memset(&none, 0, sizeof none);
+    none.type = v4l2->device.queue;
+    none.memory = V4L2_MEMORY_MMAP;
+    if (v4l2->allocated && v4l2_call(&v4l2->device, VIDIOC_REQBUFS, &none)) {
+        return -1;
+    }
+    v4l2->allocated = 0;
+    return 0;
+}
+
 capture_status v4l2_begin_stream(capture *camera)
 {
     v4l2_camera *const v4l2 = v4l2_state(camera);
-    capture_status status = v4l2_confirm_format(camera);
+    capture_status status;
 
+    /* It may not have let go of the last ones: old kernels do not while a frame is held. */
+    if (free_buffers(v4l2)) {
+        return v4l2_fail(camera, "VIDIOC_REQBUFS", errno);
+    }
+    status = v4l2_confirm_format(camera);
     if (status != CAPTURE_OK) {
         return status;
     }
@@ -182,7 +203,6 @@ void v4l2_end_stream(capture *camera, int keep_held)
     v4l2_camera *const v4l2 = v4l2_state(camera);
     const int had_buffers = v4l2->count > 0;
     int queue = (int)v4l2->device.queue;
-    struct v4l2_requestbuffers none;
     int off = 0;
 
     if (had_buffers) { /* even if they are only queued: gets them out of the queue */
@@ -199,13 +219,7 @@ void v4l2_end_stream(capture *camera, int keep_held)
     }
     v4l2->count = 0;
     v4l2->generation++;
-    if (!had_buffers || v4l2->device.fd < 0) {
-        return;
-    }
-    memset(&none, 0, sizeof none);
-    none.type = v4l2->device.queue;
-    none.memory = V4L2_MEMORY_MMAP;
-    if (v4l2_call(&v4l2->device, VIDIOC_REQBUFS, &none) && (off || errno == ENODEV)) {
+    if (had_buffers && v4l2->device.fd >= 0 && free_buffers(v4l2) && (off || errno == ENODEV)) {
         /* Neither stops nor lets go: closing the device is what is left. */
         v4l2->stubborn = errno != ENODEV;
         v4l2_device_close(&v4l2->device);

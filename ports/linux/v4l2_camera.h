@@ -76,7 +76,8 @@ typedef struct v4l2_camera {
 
     /* The queue (capture_v4l2_queue.c). */
     unsigned generation; /* of the buffers; part of a frame's slot */
-    unsigned count;
+    int allocated;       /* the driver has buffers for us */
+    unsigned count;      /* of buffers that are mapped */
     v4l2_map maps[CAPTURE_BUFFERS_MAX];
     v4l2_retired retired[CAPTURE_BUFFERS_MAX];
     unsigned held; /* frames with the caller, of `maps` and `retired` */

@@ -41,6 +41,8 @@ typedef enum replay_kind {
     REPLAY_NO_MARK   /* compressed frames: does not begin like a JPEG */
 } replay_kind;
 
+enum { REPLAY_NO_SUCH = 1, REPLAY_NOT_QUEUED };
+
 typedef struct replay_mode {
     uint32_t fourcc;
     unsigned width, height;

@@ -58,7 +58,7 @@ uint32_t replay_frame_bytes(const replay_node *node)
 
     bits_of(node->fourcc, &first, &all);
     if (first == 0) {
-        return node->jpeg_bytes > 400 ? (uint32_t)node->jpeg_bytes + 64 : 400;
+        return node->jpeg ? 16384 : 400;
     }
     return replay_stride(node) * node->height * all / first + node->size_extra;
 }
@@ -152,6 +152,15 @@ static int enum_rate(const replay_node *node, struct v4l2_frmivalenum *entry)
 
 /* ---- Setting and reading ------------------------------------------------------------------- */
 
+/* The next step below, from `min` to eight times that. */
+static unsigned step(unsigned asked, unsigned min, unsigned size)
+{
+    const unsigned most = 8 * min;
+    const unsigned taken = asked < min ? min : (asked < most ? asked : most);
+
+    return min + (taken - min) / size * size;
+}
+
 /* The mode that is nearest to what is asked for. */
 static void choose(replay_node *node, uint32_t fourcc, unsigned width, unsigned height)
 {
@@ -176,8 +185,8 @@ static void choose(replay_node *node, uint32_t fourcc, unsigned width, unsigned 
         best = &none;
     }
     node->fourcc = node->force_fourcc ? node->force_fourcc : best->fourcc;
-    node->width = node->stepwise ? width : best->width;
-    node->height = node->stepwise ? height : best->height;
+    node->width = node->stepwise ? step(width, best->width, 6) : best->width;
+    node->height = node->stepwise ? step(height, best->height, 4) : best->height;
     node->width = node->force_width ? node->force_width : node->width;
     node->height = node->force_height ? node->force_height : node->height;
     node->rate = best->rate;

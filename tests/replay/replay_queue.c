@@ -60,7 +60,7 @@ static void fill(replay *world, const replay_node *node, const replay_buffer *bu
 
     memset(memory->bytes, 0xEE, memory->length);
     if (stride == 0) {
-        fill_compressed(node, at, replay_frame_bytes(node), buffer->id, buffer->kind);
+        fill_compressed(node, at, memory->length - node->data_offset, buffer->id, buffer->kind);
         return;
     }
     fill_plane(at, buffer->id, 0, node->height, row_bytes, stride);
@@ -376,6 +376,17 @@ static void count_taken(replay *world, replay_node *node, const replay_buffer *f
     }
 }
 
+/* For nonsense that can be seen through: a buffer that was not queued, or none at all. */
+static unsigned find_not_queued(const replay_node *node)
+{
+    for (unsigned i = 0; i < node->buffer_count; i++) {
+        if (node->bad_index == REPLAY_NOT_QUEUED && !node->buffers[i].queued) {
+            return i;
+        }
+    }
+    return node->buffer_count + 3;
+}
+
 static int dequeue(replay *world, replay_node *node, struct v4l2_buffer *buffer)
 {
     replay_buffer *from;
@@ -392,7 +403,7 @@ static int dequeue(replay *world, replay_node *node, struct v4l2_buffer *buffer)
         return replay_errno(EAGAIN);
     }
     if (node->bad_index) {
-        buffer->index = node->bad_index > 0 ? (uint32_t)node->bad_index : node->buffer_count;
+        buffer->index = find_not_queued(node);
         node->bad_index = 0;
         return 0;
     }

@@ -552,9 +552,9 @@ static void test_buffer_that_the_driver_did_not_have(void)
 
     scene_start();
     held = scene_take(); /* buffer 0 */
-    world.nodes[0].bad_index = -1;
+    world.nodes[0].bad_index = REPLAY_NOT_QUEUED;
     scene_frames(1);
-    world.nodes[0].bad_index = 1000;
+    world.nodes[0].bad_index = REPLAY_NO_SUCH;
     scene_frames(1);
     TEST_ASSERT_EQUAL_UINT64(2, scene_counts().restarts);
     scene_check(&held);
