@@ -117,7 +117,7 @@ typedef struct capture_counts {
     uint64_t frames;       /* delivered to the caller */
     uint64_t missed;       /* gaps in the sequence numbers */
     uint64_t stale;        /* skipped because a newer one was there */
-    uint64_t damaged;      /* error flag set: dropped */
+    uint64_t damaged;      /* error flag set, or filled in a way that cannot be: dropped */
     uint64_t short_frames; /* too few bytes: dropped */
     uint64_t timeouts;     /* waits in vain; a deadline of 0 is no wait */
     uint64_t restarts;     /* of the stream, after time-outs, EIO and the like */

@@ -535,7 +535,7 @@ static int is_eventful(const totals *all)
 
 int main(int count, char **arguments)
 {
-    const uint64_t lives = count > 1 ? strtoull(arguments[1], NULL, 10) : 20000;
+    const uint64_t lives = count > 1 ? strtoull(arguments[1], NULL, 10) : 12000;
     const uint64_t seed = count > 2 ? strtoull(arguments[2], NULL, 10) : 1;
     totals all;
 
