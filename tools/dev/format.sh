@@ -26,13 +26,13 @@ if [ -z "$formatter" ]; then
 fi
 
 if [ $# -eq 0 ]; then
-    set -- $(find lib ports tests tools \( -name '*.c' -o -name '*.h' -o -name '*.cpp' \
+    set -- $(find lib ports tests tools \( -name '*.c' -o -name '*.h' -o -name '*.[ch]pp' \
         -o -name '*.py' -o -name '*.sh' \) 2>/dev/null | sort)
 fi
 
 is_formatted() {
     case $1 in
-    *.c | *.h | *.cpp) [ -z "$formatter" ] || "$formatter" "$1" | cmp -s "$1" - ;;
+    *.c | *.h | *.[ch]pp) [ -z "$formatter" ] || "$formatter" "$1" | cmp -s "$1" - ;;
     esac
 }
 
@@ -45,7 +45,7 @@ passed=0
 failed=0
 for file in "$@"; do
     case $fix$file in
-    yes*.c | yes*.h | yes*.cpp) [ -z "$formatter" ] || "$formatter" -i "$file" ;;
+    yes*.c | yes*.h | yes*.[ch]pp) [ -z "$formatter" ] || "$formatter" -i "$file" ;;
     esac
     good=yes
     if ! is_formatted "$file"; then
