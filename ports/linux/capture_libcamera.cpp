@@ -284,7 +284,8 @@ static capture_status open(capture *camera)
     const capture_status status = open_camera(camera);
 
     /* A camera that is in use elsewhere can still be asked what it has. */
-    if (status < 0 && status != CAPTURE_ERR_BUSY) {
+    camera->looking = status == CAPTURE_ERR_BUSY;
+    if (status < 0 && !camera->looking) {
         close(camera);
     }
     return status;
