@@ -49,6 +49,15 @@ int manager_share::take()
     return 0;
 }
 
+void manager_share::keep_forever()
+{
+    const std::lock_guard<std::mutex> guard(manager_lock);
+
+    if (manager) {
+        manager_shares++;
+    }
+}
+
 manager_share::~manager_share()
 {
     const std::lock_guard<std::mutex> guard(manager_lock);

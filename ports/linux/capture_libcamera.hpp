@@ -41,6 +41,7 @@ class manager_share
     ~manager_share();
 
     int take(); /* 0, or a negative errno: nothing was taken */
+    void keep_forever();
     libcamera::CameraManager *operator->() const
     {
         return manager;
@@ -138,8 +139,9 @@ struct state {
     uint64_t last_timestamp_us = 0;
     uint32_t missed = 0; /* since the last frame that was delivered */
     unsigned timeouts_in_row = 0;
-    bool away = false; /* unplugged, torn down, waiting for its return */
-    bool lost = false; /* for good */
+    const libcamera::Camera *stranded = nullptr; /* one that could not be stopped, see halt */
+    bool away = false;                           /* unplugged, torn down, waiting for its return */
+    bool lost = false;                           /* for good */
     clock::time_point away_since;
 
     std::map<unsigned, asked_value> asked;

@@ -45,11 +45,8 @@ static bool is_gone(state *s)
     return s->gone;
 }
 
-/*
- * Says whether a device node of the camera has vanished. libcamera learns of that through udev
- * only; where nothing told it, Camera::stop() finds requests that can never be finished and aborts
- * the program. So it is not called then.
- */
+/* Says whether a device node of the camera has vanished: libcamera learns of that through udev
+ * only, and of some cameras never. */
 static bool nodes_vanished(const state *s)
 {
     for (const dev_t node : s->nodes) {
@@ -118,13 +115,24 @@ static void settle_messages(const std::shared_ptr<libcamera::Camera> &camera)
     point->deleteLater();
 }
 
-/* After this no request is libcamera's any more and no signal comes. */
+/*
+ * After this no request is libcamera's any more.
+ *
+ * A camera that vanished without libcamera's knowledge cannot be stopped: Camera::stop() finds
+ * requests that can never be finished and aborts the program, and so does the end of a camera whose
+ * image processing still runs. It is left as it is, in the manager's list, and the manager lives as
+ * long as the program.
+ */
 static void halt(state *s)
 {
     if (s->running) {
         s->running = false;
-        if (is_gone(s) || nodes_vanished(s)) {
+        if (is_gone(s)) {
             settle_messages(s->camera);
+        } else if (nodes_vanished(s)) {
+            settle_messages(s->camera);
+            s->stranded = s->camera.get();
+            s->manager.keep_forever();
         } else {
             s->camera->stop();
         }
@@ -147,10 +155,10 @@ void release_camera(state *s)
     }
     drop_slots(s);
     s->config.reset();
-    if (s->acquired) {
+    if (s->acquired && s->camera.get() != s->stranded) {
         s->camera->release();
-        s->acquired = false;
     }
+    s->acquired = false;
     s->camera.reset();
 }
 
@@ -195,11 +203,11 @@ static capture_status restart(capture *camera)
 {
     state *const s = state_of(camera);
 
-    if (nodes_vanished(s)) {
+    halt(s);
+    if (s->stranded == s->camera.get() || is_gone(s)) {
         s->unplugged();
         return CAPTURE_OK;
     }
-    halt(s);
     s->carry_on = true;
     camera->counts.restarts++;
     const int result = run(s);
@@ -234,7 +242,8 @@ static int come_back(capture *camera)
     state *const s = state_of(camera);
 
     s->camera = s->manager->get(s->id);
-    if (!s->camera) {
+    if (!s->camera || s->camera.get() == s->stranded) {
+        s->camera.reset();
         return -ENODEV;
     }
     const int result = s->camera->acquire();
