@@ -62,6 +62,17 @@ need_arduino() {
     need arduino-core-avr test -d /usr/share/arduino/hardware/arduino/avr
 }
 
+# What the virtual machine of tests/camera takes; its kernel is downloaded but not installed.
+need_cameras() {
+    need libcamera-dev pkg-config --exists libcamera
+    need libcamera-ipa sh -c 'ls /usr/lib/*/libcamera/ipa_vimc.so'
+    need qemu-system-x86 has qemu-system-x86_64
+    need busybox-static has busybox
+    need cpio has cpio
+    need kmod has depmod
+    need xz-utils has xz
+}
+
 if [ "$board" ]; then
     need gcc has gcc
     need libc6-dev has_header stdlib.h
@@ -93,6 +104,7 @@ need libjpeg-dev has_header jpeglib.h
 need python3 has python3
 need python3-venv python3 -c 'import ensurepip, venv'
 need_machines all
+need_cameras
 need opencv-doc test -d /usr/share/doc/opencv-doc
 need_arduino
 install_missing "$logs/install.log"
