@@ -106,14 +106,13 @@ static void check_menu(capture *camera, const char *device, const capture_contro
 /* What is set must be seen: without saturation there is no colour, and white stays white. */
 static void check_seen(capture *camera, const char *device)
 {
-    const uint32_t saturation = 0x00980902; /* V4L2_CID_SATURATION */
     capture_frame frame;
     int y = -1, cb = -1, cr = -1;
     (void)knob_choose(device, "OSD Text Mode", "None");
     (void)knob_choose(device, "Test Pattern", "100% Red");
     for (int colour = 1; colour >= 0; colour--) {
         const int expected = colour ? 240 : 128; /* Cr of red: 128 + 224/2, or none */
-        capture_status status = capture_set(camera, saturation, colour ? 128 : 0, NULL);
+        capture_status status = capture_set(camera, V4L2_CID_SATURATION, colour ? 128 : 0, NULL);
         status = status == CAPTURE_OK ? capture_start(camera) : status;
         (void)take(camera, 2, 2000);
         if (status == CAPTURE_OK && capture_next(camera, 2000, &frame) == CAPTURE_OK) {
@@ -129,7 +128,7 @@ static void check_seen(capture *camera, const char *device)
               colour ? "controls seen: red" : "controls seen: no colour", "Y %d, Cb %d, Cr %d", y,
               cb, cr);
     }
-    (void)capture_set(camera, saturation, 128, NULL);
+    (void)capture_set(camera, V4L2_CID_SATURATION, 128, NULL);
 }
 
 void group_controls(int count, char **arguments)

@@ -314,6 +314,18 @@ static void end_return(const returner *one)
     }
 }
 
+/* The driver begins anew with values of its own; rate and controls have to be set again. */
+static void check_same(const char *what, const capture_settings *set)
+{
+    struct v4l2_fract interval = {0, 0};
+    int brightness = -1;
+    const int known = knob_interval(set->path, &interval) == 0 &&
+                      knob_get(set->path, "Brightness", &brightness) == 0;
+    check_in(known && interval.numerator * 60 == interval.denominator && brightness == 99,
+             "removed, set as before", what, "1/%u s, brightness %d",
+             interval.numerator > 0 ? interval.denominator / interval.numerator : 0, brightness);
+}
+
 /*
  * removed DEVICE WISHED: the node of DEVICE goes away under a stream and comes back 1.2 s later.
  * The camera was opened as WISHED, its path or its bus. By bus it is found under any path: somebody
@@ -334,6 +346,7 @@ void group_removed(int count, char **arguments)
         end_return(&helper);
         return;
     }
+    (void)capture_set(camera, V4L2_CID_BRIGHTNESS, 99, NULL);
     const int holder = by_bus ? open(arguments[0], O_RDWR | O_CLOEXEC) : -1;
     const series before = take(camera, 10, 2000);
     const int removed = remove_devices(&helper);
@@ -350,6 +363,7 @@ void group_removed(int count, char **arguments)
              after.frames, (unsigned)waited, told(after.status, camera));
     check_in(counts.reopens == 1 && (strcmp(set.path, arguments[0]) != 0) == by_bus,
              "removed, found", what, "%s, %u reopens", set.path, (unsigned)counts.reopens);
+    check_same(what, &set);
     capture_close(camera);
     if (holder >= 0) {
         close(holder);

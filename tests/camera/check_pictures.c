@@ -176,7 +176,8 @@ void group_ranges(int count, char **arguments)
             const pel_range expected = full_range(&format) ? PEL_RANGE_FULL : PEL_RANGE_LIMITED;
             check_in(set.range == expected && (i % 3 == 2 || (i % 3 == 0) == full_range(&format)),
                      "ranges", what, "%s", set.range == PEL_RANGE_FULL ? "full" : "limited");
-            check_bars(camera, device, "ranges", what, 100);
+            /* Not 100 %: what a wrong range makes of it is cut off at 0 and 255, and so right. */
+            check_bars(camera, device, "ranges", what, 75);
         }
         capture_close(camera);
     }

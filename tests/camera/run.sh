@@ -139,13 +139,31 @@ kvm_works() {
     [ -z "$software" ] && [ -r /dev/kvm ] && [ -w /dev/kvm ] && grep -qwE 'vmx|svm' /proc/cpuinfo
 }
 
-# With the processor's help, or without it, if the machine does not even come up with it.
+# Whether the machine that boots as process $1 comes up within half a minute.
+comes_up() {
+    tries=0
+    while [ $tries -lt 30 ] && kill -0 "$1" 2>/dev/null; do
+        if grep -q 'the machine is up' "$out/console.log" 2>/dev/null; then
+            return 0
+        fi
+        sleep 1
+        tries=$((tries + 1))
+    done
+    grep -q 'the machine is up' "$out/console.log" 2>/dev/null
+}
+
+# With the processor's help; without it where there is none, or where it turns out to be of no use.
 boot_somehow() {
     if kvm_works; then
-        if boot kvm 240 || grep -q 'the machine is up' "$out/console.log" 2>/dev/null; then
+        boot kvm 240 &
+        machine=$!
+        if comes_up $machine; then
+            wait $machine || true
             return
         fi
-        echo 'no virtual machine with /dev/kvm; emulated instead'
+        kill $machine 2>/dev/null || true
+        wait $machine || true
+        echo '# no virtual machine with /dev/kvm: emulated instead'
     fi
     boot tcg 280 || true
 }
