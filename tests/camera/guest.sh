@@ -74,6 +74,7 @@ check_vivid() {
     finish $? clock clock64.out
     wait $clock32
     finish $? clock clock32.out
+    check_commands
     run 30 unplugged /dev/video0
     run 40 removed /dev/video0 /dev/video0
     run 40 removed /dev/video0 platform:vivid-000
@@ -103,18 +104,69 @@ stop_playing() {
     finish $? feed feed.out
 }
 
+# expect NAME COMMAND...: the command succeeds.
+expect() {
+    what=$1
+    shift
+    if "$@" >expect.out 2>&1; then
+        echo "ok $what: $*"
+    else
+        echo "FAIL $what: $*: status $?, $(head -n 3 expect.out)"
+    fi
+}
+
+has_capture() {
+    pel capture --help >/dev/null 2>&1
+}
+
+# whole_frames FILE BYTES: whether a YUV4MPEG2 file has more than three frames of so many bytes, the
+# last of them complete.
+whole_frames() {
+    one=$(($2 + 6))
+    all=$(($(stat -c %s "$1") - $(head -n 1 "$1" | wc -c)))
+    [ $((all / one)) -gt 3 ] && [ $((all % one)) -eq 0 ]
+}
+
+# The commands and vivid, whose settings they show and change.
+check_commands() {
+    has_capture || return
+    umask 022
+    expect 'pel cameras' pel cameras
+    cp expect.out cameras.txt
+    for word in /dev/video0 platform:vivid-000 YUYV 320x180 Brightness; do
+        expect "pel cameras: $word" grep -q -i -e "$word" cameras.txt
+    done
+    expect 'pel capture pictures' \
+        pel capture -d /dev/video0 --size 320x180 --gain 77 --count 3 'p-%04d.ppm'
+    expect 'pel capture, three of them' test "$(ls p-*.ppm | tr '\n' ' ')" = \
+        'p-0000.ppm p-0001.ppm p-0002.ppm '
+    expect 'pel capture, mode' test "$(stat -c %a p-0000.ppm)" = 644
+    expect 'pel capture, size' grep -q '^320 180$' p-0000.ppm
+    expect 'pel capture, settings in the comment' grep -q -i 'gain.*77' p-0000.ppm
+    expect 'pel capture overwrites nothing' sh -c \
+        '! pel capture -d /dev/video0 --count 1 p-0000.ppm'
+    expect 'pel capture overwrites by force' \
+        pel capture -d /dev/video0 --count 1 --force p-0000.ppm
+    timeout -s INT 4 pel capture -d /dev/video0 --size 320x180 until.y4m 2>until.log
+    expect 'pel capture until Ctrl-C' whole_frames until.y4m $((320 * 180 * 2))
+}
+
 # The scene as the command sees it: live, and from what it captured.
-check_command() {
+check_blobs() {
+    if ! has_capture; then
+        echo 'SKIPPED commands: this pel has no command capture'
+        return
+    fi
     classes=/checks/scene.classes
     play /checks/7.yuv 10
     timeout 60 pel blobs -d /dev/video20 -c $classes --csv --count 2 >live.csv 2>live.log
-    same_blobs 'blobs -d' 7 live.csv
+    same_blobs 'pel blobs -d' 7 live.csv
     timeout 60 pel capture -d /dev/video20 --count 2 two.y4m 2>capture.log
     pel blobs -c $classes --csv two.y4m >file.csv 2>>capture.log
-    same_blobs 'capture to y4m' 7 file.csv
+    same_blobs 'pel capture to a file' 7 file.csv
     timeout 60 pel capture -d /dev/video20 --count 2 - 2>>capture.log |
         pel blobs -c $classes --csv - >pipe.csv 2>>capture.log
-    same_blobs 'capture, pipe' 7 pipe.csv
+    same_blobs 'pel capture to a pipe' 7 pipe.csv
     sed 's/^/# /' live.log capture.log
     stop_playing
 }
@@ -127,11 +179,7 @@ check_loopback() {
     run 30 fed /dev/video20 all.yuv
     stop_playing
     run 30 stalled /dev/video20 /checks/7.yuv
-    if pel help capture >/dev/null 2>&1 || pel capture --help >/dev/null 2>&1; then
-        check_command
-    else
-        echo 'SKIPPED commands: this pel has no command capture'
-    fi
+    check_blobs
     rmmod v4l2loopback
 }
 
