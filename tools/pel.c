@@ -11,10 +11,10 @@
 #include "command.h"
 #include "say.h"
 
-static const command *const commands[] = {&cmd_blobs, &cmd_classify, &cmd_runs,    &cmd_convert,
-                                          &cmd_scene, &cmd_budget,   &cmd_classes, &cmd_filter,
-                                          &cmd_point, &cmd_corners,  &cmd_edges,   &cmd_histogram,
-                                          &cmd_line,  &cmd_sheet,    &cmd_listen};
+static const command *const commands[] = {
+    &cmd_blobs,   &cmd_classify, &cmd_runs,   &cmd_convert,    &cmd_scene, &cmd_budget,
+    &cmd_classes, &cmd_filter,   &cmd_point,  &cmd_corners,    &cmd_edges, &cmd_histogram,
+    &cmd_line,    &cmd_sheet,    &cmd_listen, &cmd_formatcheck};
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
@@ -24,7 +24,7 @@ static void print_help(void)
            "Usage: pel COMMAND [OPTION]... FILE...\n\n",
            pel_version());
     for (size_t i = 0; i < COMMAND_COUNT; i++) {
-        printf("  %-10s %s\n", commands[i]->name, commands[i]->summary);
+        printf("  %-11s %s\n", commands[i]->name, commands[i]->summary);
     }
     printf("\n'pel COMMAND --help' is the manual of a command; '-' stands for standard input or\n"
            "standard output. Exit status: 0 done, 1 bad input, 2 bad usage.\n\n"

@@ -62,7 +62,7 @@ def refused(status, parts, *words, **options):
 
 def main(tests):
     """Runs the tests, each with a fresh folder as working directory; prints the closing line."""
-    passed = failed = 0
+    passed = failed = skipped = 0
     if shutil.which(PEL) is None:
         print("the command to test is not there: PEL_COMMAND=%s" % PEL)
         print("0 passed, 1 failed")
@@ -74,6 +74,9 @@ def main(tests):
         try:
             test()
             passed += 1
+        except Skipped as reason:
+            skipped += 1
+            print("skipped %s: %s" % (test.__name__, reason))
         except Exception:  # a test that breaks is a test that failed
             failed += 1
             print("FAILED %s" % test.__name__)
@@ -81,8 +84,12 @@ def main(tests):
         finally:
             os.chdir(back)
             shutil.rmtree(folder, ignore_errors=True)
-    print("%d passed, %d failed" % (passed, failed))
+    print("%d passed, %d failed" % (passed, failed) + (", %d skipped" % skipped if skipped else ""))
     sys.exit(1 if failed or not passed else 0)
+
+
+class Skipped(Exception):
+    """A test that cannot run here, and why."""
 
 
 def collect(namespace):
