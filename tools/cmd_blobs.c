@@ -6,6 +6,8 @@
 #include "command.h"
 #include "decimal.h"
 #include "draw.h"
+#include "live.h"
+#include "numbered.h"
 #include "options.h"
 #include "report.h"
 #include "say.h"
@@ -15,6 +17,7 @@
 
 static const char help[] =
     "Usage: pel blobs -c CLASSES [OPTION]... INPUT...\n"
+    "       pel blobs -c CLASSES -d DEVICE [OPTION]...\n"
     "\n"
     "Finds the connected regions of every colour class and measures them.\n"
     "\n"
@@ -65,6 +68,13 @@ static const char help[] =
     "'-'\n"
     "                           writes PPM, one after another, in place of the list\n"
     "\n"
+    "A camera\n"
+    "  -d, --device DEVICE      takes its frames in place of INPUT until Ctrl-C, or as --count "
+    "and\n"
+    "                           --seconds say; --size, --rate, --lock and all other options of\n"
+    "                           the camera are those of 'pel capture'. On a terminal the table\n"
+    "                           is refreshed in place; --csv and --json write each frame at once\n"
+    "\n"
     "Rows are ordered by frame, then area (largest first), then y0, then x0. Boxes are half-open:\n"
     "x0 <= x < x1. Nothing is lost: what filters and --max leave out is counted in table and "
     "JSON.\n"
@@ -72,7 +82,8 @@ static const char help[] =
     "Examples\n"
     "  pel blobs -c robot.classes --min-area 20 -o found.png robot.ppm\n"
     "  pel blobs -c robot.classes --csv --max 1 --class orange *.ppm > ball.csv\n"
-    "  pel blobs -c robot.classes --raw YUYV 320x240 --json -   < camera.yuv\n";
+    "  pel blobs -c robot.classes --raw YUYV 320x240 --json -   < camera.yuv\n"
+    "  pel blobs -c robot.classes -d /dev/video0 --lock --json --max 3\n";
 
 enum { NAMES_MAX = 32 };
 
@@ -80,6 +91,7 @@ struct job {
     const char *classes_path;
     classes list;
     source_options input;
+    camera_options camera;
     const char *wanted[NAMES_MAX]; /* --class */
     unsigned wanted_count;
     pel_blob_filter filter;
@@ -170,15 +182,16 @@ static int read_wanted(struct job *job)
 static int read_option(int option, int argc, char **argv, struct job *job)
 {
     const int taken = options_input(option, argc, argv, &job->input);
-    if (taken != 0) {
-        return taken < 0 ? -1 : 0;
+    const int live = taken == 0 ? camera_option(option, &job->camera) : 0;
+    if (taken != 0 || live != 0) {
+        return taken < 0 || live < 0 ? -1 : 0;
     }
     switch (option) {
     case 'k':
         return read_connectivity(job);
     case 'a':
         return read_area(job);
-    case 'd':
+    case 'e':
         return read_q15("--min-density", &job->shape.density_min_q15);
     case 'n':
         return read_wanted(job);
@@ -202,7 +215,10 @@ static int check(int argc, const struct job *job)
     if (!job->classes_path) {
         return usage_error("blobs", "no classes given: say -c CLASSES");
     }
-    if (optind >= argc) {
+    if (optind < argc && job->camera.given) {
+        return usage_error("blobs", "either a camera or INPUT, not both");
+    }
+    if (optind >= argc && !job->camera.given) {
         return usage_error("blobs", "no input given");
     }
     if (job->output && strcmp(job->output, "-") == 0 && job->style != REPORT_TABLE) {
@@ -213,9 +229,10 @@ static int check(int argc, const struct job *job)
 
 static const struct option long_options[] = {{"classes", required_argument, NULL, 'c'},
                                              OPTIONS_INPUT,
+                                             CAMERA_OPTIONS,
                                              {"connectivity", required_argument, NULL, 'k'},
                                              {"min-area", required_argument, NULL, 'a'},
-                                             {"min-density", required_argument, NULL, 'd'},
+                                             {"min-density", required_argument, NULL, 'e'},
                                              {"class", required_argument, NULL, 'n'},
                                              {"roi", required_argument, NULL, 'r'},
                                              {"merge-classes", no_argument, NULL, 'K'},
@@ -232,7 +249,7 @@ static int parse(int argc, char **argv, struct job *job)
 {
     int option;
     opterr = 0;
-    while ((option = getopt_long(argc, argv, ":c:o:h", long_options, NULL)) != -1) {
+    while ((option = getopt_long(argc, argv, ":c:d:o:h", long_options, NULL)) != -1) {
         switch (option) {
         case 'h':
             fputs(help, stdout);
@@ -301,40 +318,10 @@ static int check_merging(struct job *job)
 
 /* ---- The annotated picture ----------------------------------------------------------------- */
 
-/* The place of "%d", "%4d", "%04d", ... in a name, and how long it is; NULL if there is none. */
-static const char *find_number(const char *name, size_t *length)
-{
-    for (const char *p = strchr(name, '%'); p; p = strchr(p + 1, '%')) {
-        const size_t digits = strspn(p + 1, "0123456789");
-        if (digits <= 2 && p[1 + digits] == 'd') {
-            *length = digits + 2;
-            return p;
-        }
-    }
-    return NULL;
-}
-
-/* The name of a frame's picture, to be freed; NULL if memory is out. */
-static char *output_name(const char *pattern, unsigned long number)
-{
-    size_t length = 0;
-    const char *place = find_number(pattern, &length);
-    const size_t room = strlen(pattern) + 128;
-    char *name = malloc(room);
-    if (!name || !place) {
-        return name ? strcpy(name, pattern) : NULL;
-    }
-    const int width = atoi(place + 1);
-    const char *format = place[1] == '0' ? "%.*s%0*lu%s" : "%.*s%*lu%s";
-    snprintf(name, room, format, (int)(place - pattern), pattern, width, number, place + length);
-    return name;
-}
-
 /* Whether OUT has room for one frame only, and what to say to more. */
 static int takes_one_frame(const char *output)
 {
-    size_t length;
-    return output && strcmp(output, "-") != 0 && !find_number(output, &length);
+    return output && strcmp(output, "-") != 0 && !numbered_is(output);
 }
 
 static int refuse_frames(const char *output)
@@ -359,7 +346,7 @@ static int annotate(const struct job *job, const char *path, unsigned long numbe
                     const pel_cview *view)
 {
     frame picture = {0};
-    char *name = output_name(job->output, number);
+    char *name = numbered_name(job->output, number);
     int result = -1;
     if (!name || frame_resize(&picture, PEL_RGB888, PEL_RANGE_FULL,
                               pel_color_width(view->format, view->width),
@@ -561,7 +548,9 @@ static int run(int argc, char **argv)
         if (!job.output || strcmp(job.output, "-") != 0) {
             report_begin(stdout, job.style);
         }
-        failed = walk_frames(argv + optind, argc - optind, &job.input, visit, &job);
+        failed = job.camera.given
+                     ? live_walk(&job.camera, job.style, &job.list, visit, &job)
+                     : walk_frames(argv + optind, argc - optind, &job.input, visit, &job);
     }
     free(job.blobs);
     classes_free(&job.list);

@@ -79,14 +79,19 @@ int sink_close_file(FILE *file, const char *path, int status)
     return status;
 }
 
-int sink_open(sink *to, const char *path, sink_kind kind)
+void sink_attach(sink *to, FILE *file, const char *path, sink_kind kind)
 {
     static const sink empty;
 
     *to = empty;
     to->path = path;
     to->kind = kind;
-    to->file = sink_open_file(path);
+    to->file = file;
+}
+
+int sink_open(sink *to, const char *path, sink_kind kind)
+{
+    sink_attach(to, sink_open_file(path), path, kind);
     return to->file ? 0 : -1;
 }
 
@@ -158,6 +163,8 @@ static int write_coded(sink *to, const pel_cview *view)
 
 static int write_y4m(sink *to, const pel_cview *view)
 {
+    const y4m_notes notes = {to->rate_num, to->rate_den, to->comment};
+
     if (to->frames > 0 &&
         (view->width != to->width || view->height != to->height || view->format != to->format)) {
         return say_error(name_of(to->path),
@@ -165,7 +172,8 @@ static int write_y4m(sink *to, const pel_cview *view)
                          "video cannot hold it",
                          to->frames);
     }
-    if ((to->frames == 0 && y4m_write_header(to->file, view)) || y4m_write_frame(to->file, view)) {
+    if ((to->frames == 0 && y4m_write_header(to->file, view, &notes)) ||
+        y4m_write_frame(to->file, view)) {
         return cannot_write(to);
     }
     return 0;

@@ -40,7 +40,8 @@ int sink_kind_by_path(const char *path, sink_kind *kind);
 /* A file that is being written; zero it, or let sink_open do so. */
 typedef struct sink {
     const char *path;
-    const char *comment; /* for PPM, PGM, PNG, JPEG; NULL for none */
+    const char *comment;         /* for all but SINK_RAW; NULL for none */
+    unsigned rate_num, rate_den; /* frames per second, for Y4M; 0: not known */
     sink_kind kind;
     FILE *file;
     unsigned long frames;
@@ -51,6 +52,7 @@ typedef struct sink {
 /* Creates the file. Then sink_frame for each frame, and sink_close in any case: with a `status` of
  * -1 it drops the file, with 0 it says whether all is written. All: 0, or -1 after a message. */
 int sink_open(sink *to, const char *path, sink_kind kind);
+void sink_attach(sink *to, FILE *file, const char *path, sink_kind kind); /* open already */
 int sink_frame(sink *to, const pel_cview *view);
 int sink_close(sink *to, int status);
 

@@ -250,10 +250,30 @@ static const char *chroma_name(pel_format format)
     return chromas[i].name;
 }
 
-int y4m_write_header(FILE *file, const pel_cview *view)
+/* A word of the header cannot hold blanks, and readers need not take long lines. */
+static void write_comment(FILE *file, const char *comment)
 {
-    fprintf(file, "%s W%u H%u F30:1 Ip A1:1 %s XCOLORRANGE=%s\n", magic, view->width, view->height,
+    enum { COMMENT_MAX = 800 };
+    size_t i;
+
+    fputs(" XPEL=", file);
+    for (i = 0; comment[i] != '\0' && i < COMMENT_MAX; i++) {
+        const int c = (unsigned char)comment[i];
+        fputc(c == '\n' ? ';' : c <= ' ' || c >= 0x7f ? '_' : c, file);
+    }
+}
+
+int y4m_write_header(FILE *file, const pel_cview *view, const y4m_notes *notes)
+{
+    const int has_rate = notes && notes->rate_num > 0 && notes->rate_den > 0;
+
+    fprintf(file, "%s W%u H%u F%u:%u Ip A1:1 %s XCOLORRANGE=%s", magic, view->width, view->height,
+            has_rate ? notes->rate_num : 30, has_rate ? notes->rate_den : 1,
             chroma_name(view->format), view->range == PEL_RANGE_FULL ? "FULL" : "LIMITED");
+    if (notes && notes->comment) {
+        write_comment(file, notes->comment);
+    }
+    fputc('\n', file);
     return ferror(file) ? -1 : 0;
 }
 

@@ -22,9 +22,15 @@ int y4m_begin(input *in, y4m_stream *stream);
  * after a message. */
 int y4m_read(input *in, y4m_stream *stream, frame *picture);
 
+/* What a stream header can say beside that. */
+typedef struct y4m_notes {
+    unsigned rate_num, rate_den; /* frames per second; 0: written as 30:1 */
+    const char *comment;         /* becomes an XPEL= word, blanks as '_', lines ended by ';' */
+} y4m_notes;
+
 /* Writes the header and a frame; the view must be I420, YUYV or GRAY8. 0, or -1 if writing fails
- * (no message). The frame rate is written as 30:1. */
-int y4m_write_header(FILE *file, const pel_cview *view);
+ * (no message). `notes` may be NULL. */
+int y4m_write_header(FILE *file, const pel_cview *view, const y4m_notes *notes);
 int y4m_write_frame(FILE *file, const pel_cview *view);
 
 #endif

@@ -9,7 +9,8 @@ from peltest import (DEMO, SOURCE, classify, collect, equal, main, ok, paint, pa
                      read_classes, read_pnm, refused, true, write)
 
 COMMANDS = ["blobs", "classify", "runs", "convert", "scene", "budget", "classes", "filter",
-            "point", "corners", "edges", "histogram", "line", "sheet", "listen", "formatcheck"]
+            "point", "corners", "edges", "histogram", "line", "sheet", "listen", "formatcheck",
+            "capture", "cameras"]
 CLASSES = """[Colors]
 (255,128,  0) 0.0000 1 orange
 (  1,  2,  3) 0.0000 1 a,b
