@@ -125,6 +125,7 @@ static void make_strange(replay_node *node)
                             : node->buffers_max;
     node->buffers_max = node->buffers_min > 32 ? 40 : node->buffers_max;
     node->buffer_cut = node->data_offset == 0 && chance(20) ? 1 + below(30) : 0;
+    node->no_tail = node->buffer_cut == 0 && chance(200);
     node->keeps_mapped = chance(100);
     for (unsigned i = 0; i < node->control_count; i++) {
         node->controls[i].ignored = chance(200);

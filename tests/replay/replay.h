@@ -97,6 +97,7 @@ typedef struct replay_node {
     unsigned force_width, force_height;
     int format_lies; /* S_FMT answers as asked all the same; G_FMT tells the truth */
     unsigned stride_extra, size_extra;
+    int no_tail;   /* the padding of the last row is not delivered */
     int no_stride; /* bytesperline 0 */
     uint32_t field, colorspace, quantization;
     unsigned buffers_min, buffers_max; /* 0: 2 and 32 */

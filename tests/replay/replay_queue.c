@@ -339,6 +339,11 @@ static int queue(replay *world, replay_node *node, const struct v4l2_buffer *buf
     return 0;
 }
 
+static int is_planar(uint32_t fourcc)
+{
+    return fourcc == V4L2_PIX_FMT_NV12 || fourcc == V4L2_PIX_FMT_YUV420;
+}
+
 /* How many bytes it says it has. */
 static uint32_t bytes_used(const replay *world, const replay_node *node, const replay_buffer *from)
 {
@@ -353,7 +358,11 @@ static uint32_t bytes_used(const replay *world, const replay_node *node, const r
     case REPLAY_OVERLONG:
         return length + 1 + from->id % 1000;
     default:
-        return whole;
+        /* Of YU12 the last row has half the padding, of NV12 it may have half of it. */
+        return node->no_tail && !node->jpeg && replay_stride(node) > 0
+                   ? whole - node->size_extra -
+                         node->stride_extra / (is_planar(node->fourcc) ? 2 : 1)
+                   : whole;
     }
 }
 

@@ -351,6 +351,23 @@ static void test_short_frames_of_every_format(void)
     }
 }
 
+static void test_last_row_without_padding(void)
+{
+    for (unsigned i = 0; i < sizeof raw_formats / sizeof raw_formats[0]; i++) {
+        const replay_mode mode = {raw_formats[i], 36, 24, 30};
+
+        scene_end();
+        scene_begin();
+        set_modes(&mode, 1);
+        world.nodes[0].no_tail = 1;
+        world.nodes[0].stride_extra = 12;
+        wish.width = 36;
+        scene_start();
+        scene_frames(3);
+        TEST_ASSERT_EQUAL_UINT64(0, scene_counts().short_frames);
+    }
+}
+
 static void test_bytes_per_line_that_are_not_said(void)
 {
     world.nodes[0].no_stride = 1;
@@ -454,6 +471,7 @@ int main(void)
     RUN_TEST(test_every_format_with_padding);
     RUN_TEST(test_every_format_in_multi_planar_queues);
     RUN_TEST(test_short_frames_of_every_format);
+    RUN_TEST(test_last_row_without_padding);
     RUN_TEST(test_bytes_per_line_that_are_not_said);
     RUN_TEST(test_bytes_per_line_that_cannot_be);
     RUN_TEST(test_fields_one_below_the_other);

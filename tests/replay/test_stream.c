@@ -193,6 +193,27 @@ static void test_eio_for_ever_ends_with_the_deadline(void)
     TEST_ASSERT_EQUAL_UINT64(1, scene_counts().restarts);
 }
 
+static void test_first_restart_keeps_the_buffers(void)
+{
+    scene_start();
+    scene_frames(1);
+    world.nodes[0].broken = 1;
+    replay_fail(&world, VIDIOC_REQBUFS, 0, 1000, ENOMEM);
+    scene_frames(2);
+    TEST_ASSERT_EQUAL_UINT64(1, scene_counts().restarts);
+    memset(world.faults, 0, sizeof world.faults);
+}
+
+static void test_restarts_that_do_not_help_come_slowly(void)
+{
+    scene_start();
+    replay_fail(&world, VIDIOC_DQBUF, 0, 1000000, EIO); /* although the stream starts each time */
+    scene_next(1000, CAPTURE_TIMEOUT);
+    TEST_ASSERT_UINT64_WITHIN(5, 15, scene_counts().restarts);
+    memset(world.faults, 0, sizeof world.faults);
+    scene_frames(2);
+}
+
 static void test_stubborn_restart_sets_up_anew(void)
 {
     unsigned requests;
@@ -243,6 +264,8 @@ int main(void)
     RUN_TEST(test_impatience_does_not_restart_a_slow_camera);
     RUN_TEST(test_eio_restarts);
     RUN_TEST(test_eio_for_ever_ends_with_the_deadline);
+    RUN_TEST(test_first_restart_keeps_the_buffers);
+    RUN_TEST(test_restarts_that_do_not_help_come_slowly);
     RUN_TEST(test_stubborn_restart_sets_up_anew);
     RUN_TEST(test_poll_error_restarts);
     RUN_TEST(test_poll_failure_is_said);
