@@ -139,9 +139,9 @@ struct state {
     uint64_t last_timestamp_us = 0;
     uint32_t missed = 0; /* since the last frame that was delivered */
     unsigned timeouts_in_row = 0;
-    const libcamera::Camera *stranded = nullptr; /* one that could not be stopped, see halt */
-    bool away = false;                           /* unplugged, torn down, waiting for its return */
-    bool lost = false;                           /* for good */
+    std::weak_ptr<libcamera::Camera> stranded; /* one that could not be stopped, see halt */
+    bool away = false;                         /* unplugged, torn down, waiting for its return */
+    bool lost = false;                         /* for good */
     clock::time_point away_since;
 
     std::map<unsigned, asked_value> asked;

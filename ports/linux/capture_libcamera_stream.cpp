@@ -13,6 +13,8 @@ namespace capture_libcamera
 
 /* How often to look whether an unplugged camera is back. */
 static constexpr std::chrono::milliseconds look_again(20);
+/* How long udev may take to tell that a camera's nodes have vanished. */
+static constexpr std::chrono::milliseconds announcement(300);
 
 /* ---- libcamera's thread -------------------------------------------------------------------- */
 
@@ -115,6 +117,19 @@ static void settle_messages(const std::shared_ptr<libcamera::Camera> &camera)
     point->deleteLater();
 }
 
+/* The word from udev may come a little after the nodes have gone. */
+static bool is_announced(state *s)
+{
+    std::unique_lock<std::mutex> guard(s->lock);
+
+    return s->wake.wait_for(guard, announcement, [s] { return s->gone; });
+}
+
+static bool is_stranded(const state *s)
+{
+    return s->camera && s->stranded.lock() == s->camera;
+}
+
 /*
  * After this no request is libcamera's any more.
  *
@@ -127,11 +142,13 @@ static void halt(state *s)
 {
     if (s->running) {
         s->running = false;
-        if (is_gone(s)) {
+        const bool vanished = nodes_vanished(s);
+
+        if (is_gone(s) || (vanished && is_announced(s))) {
             settle_messages(s->camera);
-        } else if (nodes_vanished(s)) {
+        } else if (vanished) {
             settle_messages(s->camera);
-            s->stranded = s->camera.get();
+            s->stranded = s->camera;
             s->manager.keep_forever();
         } else {
             s->camera->stop();
@@ -155,7 +172,7 @@ void release_camera(state *s)
     }
     drop_slots(s);
     s->config.reset();
-    if (s->acquired && s->camera.get() != s->stranded) {
+    if (s->acquired && !is_stranded(s)) {
         s->camera->release();
     }
     s->acquired = false;
@@ -204,7 +221,7 @@ static capture_status restart(capture *camera)
     state *const s = state_of(camera);
 
     halt(s);
-    if (s->stranded == s->camera.get() || is_gone(s)) {
+    if (is_stranded(s) || is_gone(s)) {
         s->unplugged();
         return CAPTURE_OK;
     }
@@ -242,7 +259,7 @@ static int come_back(capture *camera)
     state *const s = state_of(camera);
 
     s->camera = s->manager->get(s->id);
-    if (!s->camera || s->camera.get() == s->stranded) {
+    if (!s->camera || is_stranded(s)) {
         s->camera.reset();
         return -ENODEV;
     }
