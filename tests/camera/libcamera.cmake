@@ -18,6 +18,7 @@ if(TARGET pel_linux)
         enable_language(CXX)
         # Its definitions must be there before the library's are looked for.
         add_executable(libcamera_replay ${CMAKE_CURRENT_LIST_DIR}/libcamera_replay.cpp
+            ${CMAKE_CURRENT_LIST_DIR}/libcamera_lives.cpp
             ${CMAKE_CURRENT_LIST_DIR}/fake_libcamera.cpp)
         target_link_libraries(libcamera_replay PRIVATE pel::linux PkgConfig::PEL_FAKE_LIBCAMERA)
         set_target_properties(libcamera_replay PROPERTIES ENABLE_EXPORTS ON

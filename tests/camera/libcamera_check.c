@@ -527,17 +527,11 @@ static void group_vimc(void)
 
 /* ---- Taken away ---------------------------------------------------------------------------- */
 
-static int write_driver(const char *what)
+static int take_away(void)
 {
-    char path[64];
-    FILE *file;
+    FILE *const file = fopen("/sys/bus/platform/drivers/vimc/unbind", "we");
 
-    snprintf(path, sizeof path, "/sys/bus/platform/drivers/vimc/%s", what);
-    file = fopen(path, "we");
-    if (!file || fputs("vimc.0", file) < 0) {
-        return 0;
-    }
-    return fclose(file) == 0;
+    return file && fputs("vimc.0", file) >= 0 && fclose(file) == 0;
 }
 
 /* Frames until the camera is gone, or the last status after `tries`. */
@@ -568,7 +562,7 @@ static void group_unplug(void)
         capture_close(camera);
         return;
     }
-    check(write_driver("unbind"), "unplug: taken away");
+    check(take_away(), "unplug: taken away");
     const capture_status status = until_gone(camera, 50);
     check(status == CAPTURE_ERR_GONE, "unplug: %s (%s)", capture_status_name(status),
           capture_error(camera));
