@@ -24,6 +24,7 @@ static int in_real_time;
 static uint8_t *frames; /* what the first camera shows, without padding */
 static size_t frames_bytes;
 static uint8_t *jpeg;
+static char *words_of_test; /* the cameras' names point into it */
 
 static void give_up(const char *what, const char *word)
 {
@@ -58,6 +59,7 @@ static void check_account(void)
     replay_free(&world);
     free(frames);
     free(jpeg);
+    free(words_of_test);
 }
 
 /* ---- Calls --------------------------------------------------------------------------------- */
@@ -235,11 +237,10 @@ const struct v4l2_calls *v4l2_system_calls(void)
     }
     replay_init(&world);
     add_automatics();
-    char *copy = malloc(words ? strlen(words) + 1 : 1);
-    if (copy && words) {
-        take_words(strcpy(copy, words));
+    words_of_test = malloc(words ? strlen(words) + 1 : 1);
+    if (words_of_test && words) {
+        take_words(strcpy(words_of_test, words));
     }
-    free(copy);
     calls = world.calls;
     calls.ioctl = call_ioctl;
     calls.poll = call_poll;

@@ -98,12 +98,15 @@ def names(found):
     return {row[0] for row in found}
 
 
-def check_all_formats(picture, what, size=True):
+ALL = ["GRAY8"] + COLOURED + [name for pair in PAIRS for name in sorted(pair)]
+
+
+def check_formats(picture, what, forms=ALL, size=True):
     """Every format is named, alone or with the one that it cannot be told from."""
     width, height, _ = picture
     options = ["--size", "%dx%d" % (width, height)] if size else []
     unsure = 0
-    for form in ["GRAY8"] + COLOURED + [name for pair in PAIRS for name in sorted(pair)]:
+    for form in forms:
         found = fits(pack(picture, form), *options)
         pair = next((pair for pair in PAIRS if form in pair), {form})
         equal({row[1:3] for row in found}, {(width, height)}, "%s: size of %s" % (what, form))
@@ -121,16 +124,16 @@ def check_all_formats(picture, what, size=True):
 
 def test_all_formats_of_scenes():
     for seed in (1, 2):
-        equal(check_all_formats(scene(seed), "scene %d" % seed), 0, "undecided")
+        equal(check_formats(scene(seed), "scene %d" % seed), 0, "undecided")
 
 
 def test_all_formats_without_the_size():
-    equal(check_all_formats(scene(3), "scene", size=False), 0, "undecided")
-    equal(check_all_formats(scene(4, "--size", "160x120"), "small", size=False), 0, "undecided")
+    equal(check_formats(scene(3), "scene", size=False), 0, "undecided")
+    equal(check_formats(scene(4, "--size", "160x120"), "small", size=False), 0, "undecided")
 
 
 def test_noisy_scene():
-    equal(check_all_formats(scene(6, "--noise", "6"), "noisy scene"), 0, "undecided")
+    equal(check_formats(scene(6, "--noise", "6"), "noisy scene"), 0, "undecided")
 
 
 def test_photos():
@@ -138,12 +141,13 @@ def test_photos():
                                           "*_304x400.ppm")))
     if not paths:
         raise Skipped("no pictures in PEL_DATA_DIR")
+    forms = ["GRAY8", "YUYV", "VYUY", "NV12", "YV12", "RGB565_LE", "BGR888", "BAYER8_GRBG"]
     unsure = 0
     for path in paths:
         _, width, height, pixels, _ = read_pnm(path)
-        unsure += check_all_formats((width, height, pixels), os.path.basename(path))
+        unsure += check_formats((width, height, pixels), os.path.basename(path), forms)
     # Halls without saturated colours leave U and V open, which is honest; others do not.
-    true(unsure <= 5 * len(paths), "%d of %d undecided" % (unsure, 8 * len(paths)))
+    true(unsure <= 3 * len(paths), "%d of %d undecided" % (unsure, 4 * len(paths)))
 
 
 def test_padded_rows():
