@@ -1,7 +1,7 @@
 #include "pel/filter.h"
 
 #include "filter_radius.h"
-#include "row/row_filter.h"
+#include "row/row_filter_best.h"
 
 /* ---- Borders ------------------------------------------------------------------------------- */
 
@@ -85,12 +85,9 @@ static void put_sides(const pel_filter *f, uint8_t *row)
     }
 }
 
-/* The row in its slot and the one that is put there are never the same memory. */
-static void put_row(const pel_filter *f, const uint8_t *restrict src, uint8_t *restrict row)
+static void put_row(const pel_filter *f, const uint8_t *src, uint8_t *row)
 {
-    for (uint16_t x = 0; x < f->config.width; x++) {
-        row[x] = src[x];
-    }
+    PEL_BEST_COPY(src, f->config.width, row);
     put_sides(f, row);
 }
 
@@ -311,7 +308,7 @@ pel_status pel_filter_pull(pel_filter *f, uint8_t *out)
     }
     scale = scale_of(f->config.kernel);
     if (f->radius == 1) {
-        pel_row_kernel3(rows, f->config.kernel->tap, &scale, count, out);
+        PEL_BEST_KERNEL3(rows, f->config.kernel->tap, &scale, count, out);
     } else {
         pel_row_kernel5(rows, f->config.kernel->tap, &scale, count, out);
     }

@@ -109,30 +109,39 @@ pel_status pel_filter_frame_s16(const pel_filter_config *config, const pel_cview
     return status;
 }
 
+/* One of the two; without dst it is only checked. */
+static pel_status one_of_two(const pel_filter_config *config, pel_filter_op *op,
+                             const pel_cview *src, const pel_view *dst)
+{
+    pel_filter filter;
+    const pel_status status = begin_frame(&filter, config, op, NULL, src);
+
+    if (status == PEL_OK && dst) {
+        run(&filter, src, dst);
+    }
+    return status;
+}
+
 pel_status pel_filter_twice(const pel_filter_config *config, pel_filter_op *first,
                             pel_filter_op *second, const pel_cview *src, const pel_view *dst)
 {
     pel_status status = config ? pel_i_check_gray_pair(src, dst) : PEL_ERR_ARG;
-    pel_filter filter;
-    pel_cview between;
 
+    if (status == PEL_OK && config->border == PEL_BORDER_VALID) {
+        status = PEL_ERR_ARG;
+    }
+    if (status == PEL_OK) { /* now, so that nothing is refused halfway */
+        status = one_of_two(config, second, src, NULL);
+    }
+    if (status == PEL_OK && (dst->width != src->width || dst->height != src->height)) {
+        status = PEL_ERR_SPACE;
+    }
     if (status == PEL_OK) {
-        status = config->border == PEL_BORDER_VALID
-                     ? PEL_ERR_ARG
-                     : begin_frame(&filter, config, second, NULL, src);
+        status = one_of_two(config, first, src, dst);
     }
-    if (status == PEL_OK) { /* the second can begin: nothing is refused halfway */
-        status = begin_frame(&filter, config, first, NULL, src);
+    if (status == PEL_OK) {
+        const pel_cview between = pel_view_to_read(dst);
+        status = one_of_two(config, second, &between, dst);
     }
-    if (status != PEL_OK) {
-        return status;
-    }
-    if (!fits(&filter, dst)) {
-        return PEL_ERR_SPACE;
-    }
-    run(&filter, src, dst);
-    between = pel_view_to_read(dst);
-    status = begin_frame(&filter, config, second, NULL, &between);
-    run(&filter, &between, dst);
     return status;
 }

@@ -4,7 +4,7 @@
  */
 #include "pel/filter.h"
 
-#include "row/row_filter.h"
+#include "row/row_filter_best.h"
 
 #define OPERATOR(name, pixel, row_kernel, radius)                                                  \
     unsigned name(const uint8_t *const rows[], uint16_t count, const pel_kernel *kernel,           \
@@ -17,12 +17,12 @@
         return radius;                                                                             \
     }
 
-OPERATOR(pel_op_gauss3, uint8_t, pel_row_gauss3, 1)
+OPERATOR(pel_op_gauss3, uint8_t, PEL_BEST_GAUSS3, 1)
 OPERATOR(pel_op_box3, uint8_t, pel_row_box3, 1)
 OPERATOR(pel_op_binomial5, uint8_t, pel_row_binomial5, 2)
 OPERATOR(pel_op_sobel_x_s16, int16_t, pel_row_sobel_x, 1)
 OPERATOR(pel_op_sobel_y_s16, int16_t, pel_row_sobel_y, 1)
-OPERATOR(pel_op_gradient_abs, uint8_t, pel_row_gradient_abs, 1)
+OPERATOR(pel_op_gradient_abs, uint8_t, PEL_BEST_GRADIENT_ABS, 1)
 OPERATOR(pel_op_gradient_abs_s16, int16_t, pel_row_gradient_abs_s16, 1)
 OPERATOR(pel_op_gradient, uint8_t, pel_row_gradient, 1)
 OPERATOR(pel_op_gradient_s16, int16_t, pel_row_gradient_s16, 1)

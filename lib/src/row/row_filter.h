@@ -10,6 +10,9 @@
  * unless said.
  */
 
+/* Copies count bytes. */
+void pel_row_copy(const uint8_t *src, uint16_t count, uint8_t *dst);
+
 /*
  * How a sum becomes a result: v = sum + start, which is positive; with flip = start, not 0, v below
  * it becomes 2 start - v, so that |sum| + start is left; v / divisor or, where that is 0,

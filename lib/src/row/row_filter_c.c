@@ -12,6 +12,13 @@ static inline int16_t limited_s16(int32_t value)
     return (int16_t)(value < -32768 ? -32768 : value > 32767 ? 32767 : value);
 }
 
+void pel_row_copy(const uint8_t *restrict src, uint16_t count, uint8_t *restrict dst)
+{
+    for (int x = 0; x < count; x++) {
+        dst[x] = src[x];
+    }
+}
+
 /* ---- Kernels ------------------------------------------------------------------------------- */
 
 static inline int32_t scaled(uint32_t value, const pel_row_scale *scale)
@@ -71,16 +78,16 @@ void pel_row_kernel3_s16(const uint8_t *const rows[], const int8_t *tap, const p
     }
 }
 
-/* 5x5: -816000..809625. */
+/* 5x5: -816000..809625. In a loop: written out, 25 taps would fill the stack. */
 static inline int32_t sum5(const uint8_t *const rows[], int x, const int8_t *tap)
 {
     int32_t sum = 0;
 
     for (unsigned r = 0; r < 5; r++) {
         const uint8_t *const p = rows[r] + x;
-        const int8_t *const t = tap + 5 * r;
-        sum += t[0] * (int32_t)p[-2] + t[1] * (int32_t)p[-1] + t[2] * (int32_t)p[0] +
-               t[3] * (int32_t)p[1] + t[4] * (int32_t)p[2];
+        sum += tap[0] * (int32_t)p[-2] + tap[1] * (int32_t)p[-1] + tap[2] * (int32_t)p[0] +
+               tap[3] * (int32_t)p[1] + tap[4] * (int32_t)p[2];
+        tap += 5;
     }
     return sum;
 }
@@ -88,16 +95,20 @@ static inline int32_t sum5(const uint8_t *const rows[], int x, const int8_t *tap
 void pel_row_kernel5(const uint8_t *const rows[], const int8_t *tap, const pel_row_scale *scale,
                      uint16_t count, uint8_t *restrict out)
 {
+    const pel_row_scale s = *scale;
+
     for (int x = 0; x < count; x++) {
-        out[x] = limited_u8(scaled(scale->start + (uint32_t)sum5(rows, x, tap), scale));
+        out[x] = limited_u8(scaled(s.start + (uint32_t)sum5(rows, x, tap), &s));
     }
 }
 
 void pel_row_kernel5_s16(const uint8_t *const rows[], const int8_t *tap, const pel_row_scale *scale,
                          uint16_t count, int16_t *restrict out)
 {
+    const pel_row_scale s = *scale;
+
     for (int x = 0; x < count; x++) {
-        out[x] = limited_s16(scaled(scale->start + (uint32_t)sum5(rows, x, tap), scale));
+        out[x] = limited_s16(scaled(s.start + (uint32_t)sum5(rows, x, tap), &s));
     }
 }
 
