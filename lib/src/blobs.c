@@ -146,7 +146,7 @@ static unsigned touch(pel_blobs *b, unsigned id, unsigned above)
 
 /* Joins the runs of the row to the runs of the same label that they touch. A joined blob is marked
  * by its y1, before its pixels are added. */
-static void join_row(pel_blobs *b, size_t count, const uint8_t *labels)
+PEL_I_APART static void join_row(pel_blobs *b, size_t count, const uint8_t *labels)
 {
     const pel_run *above = b->runs[b->above];
     const uint16_t *ids_above = b->ids[b->above];
@@ -216,7 +216,7 @@ static inline void add_moments(struct pel_blob_moments *m, uint32_t n, uint32_t 
 
 static void add_color(const pel_blobs *b, size_t id, const pel_crow *pixels, pel_run run)
 {
-    enum { CHUNK = 16 };
+    enum { CHUNK = 8 };
     struct pel_blob_color *const color = &b->colors[id];
     uint8_t y[CHUNK], u[CHUNK], v[CHUNK];
 
@@ -247,7 +247,8 @@ static inline void add_run(pel_blobs *b, slot *slots, struct pel_blob_moments *m
 
 /* Adds the runs of the row to their blobs, and opens blobs for those that touch none while there
  * are free slots; returns for how many there was none. */
-static size_t add_row(pel_blobs *b, size_t count, const uint8_t *labels, const pel_crow *pixels)
+PEL_I_APART static size_t add_row(pel_blobs *b, size_t count, const uint8_t *labels,
+                                  const pel_crow *pixels)
 {
     const pel_run *const runs = b->runs[1 - b->above];
     uint16_t *const ids = b->ids[1 - b->above];
@@ -285,47 +286,39 @@ static uint8_t mean(uint32_t sum, uint32_t area)
     return (uint8_t)((2 * sum + area) / (2 * area));
 }
 
-static pel_blob describe(const pel_blobs *b, uint16_t id)
+static void describe(const pel_blobs *b, uint16_t id, pel_blob *blob)
 {
     const slot *const s = &b->slots[id];
-    pel_blob blob = {0,
-                     0,
-                     0,
-                     s->area,
-                     s->sum_x,
-                     s->sum_y,
-                     0,
-                     0,
-                     s->x0,
-                     s->x1,
-                     s->y0,
-                     s->y1,
-                     (uint8_t)(s->label - 1),
-                     0,
-                     0,
-                     0,
-                     0};
+    const pel_blob nothing = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 
-    blob.edges = (uint8_t)((s->x0 == 0 ? PEL_EDGE_LEFT : 0) |
-                           (s->x1 == b->config.width ? PEL_EDGE_RIGHT : 0) |
-                           (s->y0 == 0 ? PEL_EDGE_TOP : 0) |
-                           (s->y1 == b->config.height ? PEL_EDGE_BOTTOM : 0));
+    *blob = nothing;
+    blob->area = s->area;
+    blob->sum_x = s->sum_x;
+    blob->sum_y = s->sum_y;
+    blob->x0 = s->x0;
+    blob->x1 = s->x1;
+    blob->y0 = s->y0;
+    blob->y1 = s->y1;
+    blob->class_index = (uint8_t)(s->label - 1);
+    blob->edges = (uint8_t)((s->x0 == 0 ? PEL_EDGE_LEFT : 0) |
+                            (s->x1 == b->config.width ? PEL_EDGE_RIGHT : 0) |
+                            (s->y0 == 0 ? PEL_EDGE_TOP : 0) |
+                            (s->y1 == b->config.height ? PEL_EDGE_BOTTOM : 0));
     if (b->moments) {
         /* A multiple of 12: shift by 2, then times the inverse of 3 modulo 2^64. */
-        blob.sum_xx = (b->moments[id].xx12 >> 2) * UINT64_C(0xAAAAAAAAAAAAAAAB);
-        blob.sum_xy = b->moments[id].xy;
-        blob.sum_yy = b->moments[id].yy;
+        blob->sum_xx = (b->moments[id].xx12 >> 2) * UINT64_C(0xAAAAAAAAAAAAAAAB);
+        blob->sum_xy = b->moments[id].xy;
+        blob->sum_yy = b->moments[id].yy;
     }
     if (b->outlines) {
-        blob.perimeter = 2 * (s->area + (uint32_t)b->outlines[id].edges);
-        blob.holes = (uint32_t)(1 - b->outlines[id].euler);
+        blob->perimeter = 2 * (s->area + (uint32_t)b->outlines[id].edges);
+        blob->holes = (uint32_t)(1 - b->outlines[id].euler);
     }
     if (b->colors) {
-        blob.mean_y = mean(b->colors[id].y, s->area);
-        blob.mean_u = mean(b->colors[id].u, s->area);
-        blob.mean_v = mean(b->colors[id].v, s->area);
+        blob->mean_y = mean(b->colors[id].y, s->area);
+        blob->mean_u = mean(b->colors[id].u, s->area);
+        blob->mean_v = mean(b->colors[id].v, s->area);
     }
-    return blob;
 }
 
 /* Puts a blob among the results; when they are full it takes the place of the smallest, if that is
@@ -353,8 +346,9 @@ static void keep(pel_blobs *b, const pel_blob *blob)
 
 static void report(pel_blobs *b, uint16_t id)
 {
-    const pel_blob blob = describe(b, id);
+    pel_blob blob;
 
+    describe(b, id, &blob);
     if (!pel_blob_passes(&blob, b->config.filter) ||
         (b->config.accept && !b->config.accept(b->config.limits, &blob))) {
         b->counts.filtered++;

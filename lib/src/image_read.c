@@ -61,7 +61,14 @@ static void rgb_of_bayer(const pel_crow *row, uint16_t x, uint16_t count, uint8_
                        pel_i_format(row->format)->order, rgb);
 }
 
-enum { CHUNK = 16 }; /* pixels converted at a time: 48 bytes of stack */
+static rgb_reader *rgb_reader_of(unsigned layout)
+{
+    return layout == PEL_LAYOUT_RGB24    ? rgb_of_rgb24
+           : layout == PEL_LAYOUT_RGB565 ? rgb_of_rgb565
+                                         : rgb_of_bayer;
+}
+
+enum { CHUNK = 8 }; /* pixels converted at a time: 24 bytes of stack */
 
 static void convert(const pel_crow *row, uint16_t x, uint16_t count, rgb_reader *read, int limited,
                     planes to)
@@ -75,75 +82,91 @@ static void convert(const pel_crow *row, uint16_t x, uint16_t count, rgb_reader 
     }
 }
 
-/* A reader of one layout, after its checks. */
-static pel_status read_layout(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
-                              enum pel_layout layout, rgb_reader *read, planes to)
+/* Of a row that is YCbCr, which must have the range. */
+static pel_status copy_pairs(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
+                             planes to)
+{
+    const pel_row_pairs pairs = pel_i_pairs(pel_i_format(row->format), row);
+
+    if (row->range != range) {
+        return PEL_ERR_FORMAT;
+    }
+    pel_row_read_pairs(&pairs, x, count, to.y, to.u, to.v);
+    return PEL_OK;
+}
+
+/* Those of check_yuv, and that the row has the layout. Apart from the conversion, so that their
+ * stacks do not add up. */
+static pel_status check_layout(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
+                               enum pel_layout layout, planes to)
 {
     const pel_status status = check_yuv(row, x, count, range, to);
 
-    if (status == PEL_OK && pel_i_format(row->format)->layout != layout) {
-        return PEL_ERR_FORMAT;
-    }
-    if (status == PEL_OK) {
-        convert(row, x, count, read, range == PEL_RANGE_LIMITED, to);
-    }
-    return status;
+    return status == PEL_OK && pel_i_format(row->format)->layout != layout ? PEL_ERR_FORMAT
+                                                                           : status;
 }
 
 pel_status pel_crow_read_rgb24(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
                                uint8_t *y, uint8_t *u, uint8_t *v)
 {
     const planes to = {y, u, v};
-    return read_layout(row, x, count, range, PEL_LAYOUT_RGB24, rgb_of_rgb24, to);
+    const pel_status status = check_layout(row, x, count, range, PEL_LAYOUT_RGB24, to);
+
+    if (status == PEL_OK) {
+        convert(row, x, count, rgb_of_rgb24, range == PEL_RANGE_LIMITED, to);
+    }
+    return status;
 }
 
 pel_status pel_crow_read_rgb565(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
                                 uint8_t *y, uint8_t *u, uint8_t *v)
 {
     const planes to = {y, u, v};
-    return read_layout(row, x, count, range, PEL_LAYOUT_RGB565, rgb_of_rgb565, to);
+    const pel_status status = check_layout(row, x, count, range, PEL_LAYOUT_RGB565, to);
+
+    if (status == PEL_OK) {
+        convert(row, x, count, rgb_of_rgb565, range == PEL_RANGE_LIMITED, to);
+    }
+    return status;
 }
 
 pel_status pel_crow_read_bayer(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
                                uint8_t *y, uint8_t *u, uint8_t *v)
 {
     const planes to = {y, u, v};
-    return read_layout(row, x, count, range, PEL_LAYOUT_BAYER, rgb_of_bayer, to);
+    const pel_status status = check_layout(row, x, count, range, PEL_LAYOUT_BAYER, to);
+
+    if (status == PEL_OK) {
+        convert(row, x, count, rgb_of_bayer, range == PEL_RANGE_LIMITED, to);
+    }
+    return status;
 }
 
 pel_status pel_crow_read_ycbcr(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
                                uint8_t *y, uint8_t *u, uint8_t *v)
 {
     const planes to = {y, u, v};
-    const pel_status status = check_yuv(row, x, count, range, to);
-    const pel_format_info *info;
+    const pel_status status = check_layout(row, x, count, range, PEL_LAYOUT_PAIRS, to);
 
-    if (status != PEL_OK) {
-        return status;
-    }
-    info = pel_i_format(row->format);
-    if (info->layout != PEL_LAYOUT_PAIRS || row->range != range) {
-        return PEL_ERR_FORMAT;
-    }
-    {
-        const pel_row_pairs pairs = pel_i_pairs(info, row);
-        pel_row_read_pairs(&pairs, x, count, y, u, v);
-    }
-    return PEL_OK;
+    return status == PEL_OK ? copy_pairs(row, x, count, range, to) : status;
 }
 
 pel_status pel_crow_read_yuv(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
                              uint8_t *y, uint8_t *u, uint8_t *v)
 {
-    const pel_format_info *info = row ? pel_i_format(row->format) : NULL;
+    const planes to = {y, u, v};
+    const pel_status status = check_yuv(row, x, count, range, to);
+    unsigned layout;
 
-    if (!info) {
-        return PEL_ERR_ARG;
+    if (status != PEL_OK) {
+        return status;
     }
-    return info->layout == PEL_LAYOUT_PAIRS    ? pel_crow_read_ycbcr(row, x, count, range, y, u, v)
-           : info->layout == PEL_LAYOUT_RGB24  ? pel_crow_read_rgb24(row, x, count, range, y, u, v)
-           : info->layout == PEL_LAYOUT_RGB565 ? pel_crow_read_rgb565(row, x, count, range, y, u, v)
-                                               : pel_crow_read_bayer(row, x, count, range, y, u, v);
+    layout = pel_i_format(row->format)->layout;
+    if (layout == PEL_LAYOUT_PAIRS) {
+        return copy_pairs(row, x, count, range, to);
+    }
+    convert(row, x, count, rgb_reader_of(layout), range == PEL_RANGE_LIMITED, to);
+    return PEL_OK;
 }
 
 /* ---- To R G B ------------------------------------------------------------------------------ */
@@ -178,9 +201,7 @@ pel_status pel_crow_read_rgb(const pel_crow *row, uint16_t x, uint16_t count, ui
         const pel_row_pairs pairs = pel_i_pairs(info, row);
         convert_pairs(&pairs, x, count, row->range == PEL_RANGE_LIMITED, rgb);
     } else {
-        rgb_reader *const read = info->layout == PEL_LAYOUT_RGB24    ? rgb_of_rgb24
-                                 : info->layout == PEL_LAYOUT_RGB565 ? rgb_of_rgb565
-                                                                     : rgb_of_bayer;
+        rgb_reader *const read = rgb_reader_of(info->layout);
         read(row, x, count, rgb);
     }
     return PEL_OK;
