@@ -75,7 +75,7 @@ static void classify_yuv(const pel_classifier *classifier, const uint8_t *y, con
     }
 }
 
-enum { CHUNK = 16 }; /* pixels read at a time: 48 bytes of stack here, 24 in the reader */
+enum { CHUNK = 8 }; /* pixels read at a time: 24 bytes of stack here, 24 in the reader */
 
 /* Whatever the reader reads. */
 static void classify_in_chunks(const pel_classifier *classifier, const pel_crow *row,

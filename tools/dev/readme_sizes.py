@@ -23,7 +23,8 @@ CORES = (("cortex-m0", "Cortex-M0"), ("cortex-m4", "Cortex-M4"), ("cortex-m55", 
 # arrows.
 MODULES = (("blobs", ("blob",)), ("classify", ("classify",)), ("filter", ("filter",)),
            ("point", ("point",)), ("feature", ("feature",)), ("image", ("image", "frames")),
-           ("color", ("color",)), ("row kernels", ("row",)), ("fixed, status", ("fixed", "status")))
+           ("color", ("color",)), ("row kernels", ("row",)),
+           ("fixed, status, backend", ("fixed", "status", "backend", "overlap")))
 # What others have figures for, too.
 WORK = (("YUYV to blobs: shapes, 8 classes", "blobs basic synth"),
         ("YUYV to blobs: photograph, 6 classes", "blobs basic china"),

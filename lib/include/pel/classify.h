@@ -97,7 +97,7 @@ typedef struct pel_classifier {
 /*
  * Classifies a row: labels[x] for 0 <= x < pel_color_width(row).
  * Cost per pixel: boxes on YCbCr, three look-ups at most; what goes through the reader is read in
- * pieces of 16 pixels first.
+ * pieces of 8 pixels first.
  *
  * PEL_ERR_ARG: null pointer, unknown format or range, no classes, table bits over 8, labels that
  * overlap the row. PEL_ERR_FORMAT: impossible width, a colour range that is not the classifier's,
