@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "row/row_select.h"
+#include "row/row_select_runs.h"
 
 /* Boxes from a seed: some of any size, some empty, some that reach the ends of the scale. */
 static void random_boxes(uint32_t seed, pel_boxes *boxes)

@@ -40,17 +40,4 @@ static inline void pel_i_row_classify_pairs(pel_backend backend, const uint8_t *
     }
 }
 
-static inline uint16_t pel_i_row_find_runs(pel_backend backend, const uint8_t *labels,
-                                           uint16_t count, uint16_t *edges)
-{
-    switch (backend) {
-#if defined(PEL_ROW_X86)
-    case PEL_BACKEND_AVX2:
-        return pel_row_find_runs_avx2(labels, count, edges);
-#endif
-    default:
-        return pel_row_find_runs(labels, count, edges);
-    }
-}
-
 #endif
