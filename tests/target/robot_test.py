@@ -384,7 +384,8 @@ def check_targets(stream, camera):
 
 def deepest(folder):
     """Bytes of stack from the first C function down, out of the compiler's graph files; the
-    indirect call of the library is the firmware's on_blob."""
+    indirect calls of the library are the firmware's on_blob, and readers and limits of shape, of
+    which it names none."""
     calls, frames = collections.defaultdict(set), {}
     for path in folder.rglob("*.ci"):
         text = path.read_text()
@@ -405,8 +406,13 @@ def deepest(folder):
         return own + max((depth(callee, path + (name,)) for callee in calls[name]), default=0) \
             if name in calls else own
     most = depth("pel_start", ())
-    check(len(on_blob) == 1 and len(callers) == 1 and "/blobs.c:" in callers.pop(),
-          "the one indirect call is the library's of on_blob")
+    known = [name for name in callers
+             if name.startswith("pel_") or re.search(r"/(blobs|classify)\.c:", name)]
+    check(len(on_blob) == 1 and len(known) == len(callers) > 0,
+          "the library calls back from blobs and classify alone: %s" % sorted(callers))
+    named = [path.name for path in (SOURCE / "ports/robot").glob("*.c")
+             if re.search(r"\.\s*(reader|accept)\b", path.read_text())]
+    check(not named, "no reader and no limit of shape is named, but in %s" % named)
     return most
 
 
