@@ -25,6 +25,8 @@ SOURCE = pathlib.Path(os.environ.get("PEL_SOURCE_DIR")
                       or pathlib.Path(__file__).resolve().parents[2])
 CC = os.environ.get("PEL_CC", "cc")
 ROBOT = SOURCE / "ports/robot"
+sys.path.insert(0, str(SOURCE / "tests/size"))
+import stack  # noqa: E402 (the graph of calls is read in one place)
 CLASSES = ROBOT / "robot.classes"
 
 # name: compiler, emulator, limits of RAM and flash in bytes (of the boards with little).
@@ -34,10 +36,6 @@ BOARDS = {
     "mps2-an386": ("arm-none-eabi-gcc", "qemu-system-arm", None),
 }
 FRAME_BYTES = 320 * 240 * 2
-# A helper of the compiler (division, shifts of 64 bits) has no stack file; the largest takes less.
-HELPER_STACK = 64
-# The reader that the firmware names is called through a pointer, which the graph leaves out.
-UNSEEN_STACK = 32
 
 passed = failed = skipped = 0
 
@@ -385,33 +383,15 @@ def check_targets(stream, camera):
 
 
 def deepest(folder):
-    """Bytes of stack from the first C function down, out of the compiler's graph files; the
-    indirect calls of the library are the firmware's on_blob; its reader is not in the graph."""
-    calls, frames = collections.defaultdict(set), {}
-    for path in folder.rglob("*.ci"):
-        text = path.read_text()
-        for title, size in re.findall(r'node: \{ title: "([^"]+)" label: "[^"]*?(\d+) bytes', text):
-            frames[title] = int(size)
-        for caller, callee in re.findall(r'sourcename: "([^"]+)" targetname: "([^"]+)"', text):
-            calls[caller].add(callee)
-    on_blob = [name for name in frames if name.endswith(":on_blob")]
-    calls["__indirect_call"] = set(on_blob)
-    callers = set()
-
-    def depth(name, path):
-        if name == "__indirect_call":
-            callers.add(path[-1])
-        if name in path:
-            raise RuntimeError("recursion: %r" % (path + (name,),))
-        own = frames.get(name, 0 if name in calls else HELPER_STACK)
-        return own + max((depth(callee, path + (name,)) for callee in calls[name]), default=0) \
-            if name in calls else own
-    most = depth("pel_start", ())
-    known = [name for name in callers
-             if name.startswith("pel_") or re.search(r"/(blobs|classify)\.c:", name)]
-    check(len(on_blob) == 1 and len(known) == len(callers) > 0,
-          "the library calls back from blobs and classify alone: %s" % sorted(callers))
-    return most
+    """Bytes of stack from the first C function down, out of the compiler's graph files. Calls
+    through pointers reach what stack.py lists for the library, and the firmware's on_blob."""
+    graph = stack.Graph(path.with_suffix("") for path in folder.rglob("*.ci"))
+    mine = [entry for entry in stack.INDIRECT if "on_blob" not in entry[0]]
+    faults, used = graph.resolve([(r"\bon_blob\(", "on_blob")] + mine)
+    check(not faults and r"\bon_blob\(" in used, "calls through pointers: %s" % faults)
+    rings = graph.rings()
+    check(not rings, "functions that come back to themselves: %s" % rings)
+    return graph.deepest("pel_start")
 
 
 def check_memory(name, folder, said):
@@ -424,7 +404,7 @@ def check_memory(name, folder, said):
     ram, flash = data + bss + bound, text + data
     print("%s: flash %d, RAM %d (data %d, bss %d, stack at most %d; %d were used)"
           % (name, flash, ram, data, bss, bound, used))
-    check(used <= bound + UNSEEN_STACK,
+    check(used <= bound,
           "%s: %d bytes of stack used, but %d predicted" % (name, used, bound))
     if limits:
         check(ram < limits[0], "%s: RAM %d" % (name, ram))

@@ -42,8 +42,9 @@ static void test_a_wish_becomes_something_that_runs(void)
     TEST_ASSERT_TRUE(best != PEL_BACKEND_AUTO);
     for (unsigned i = PEL_BACKEND_SCALAR; i < PEL_BACKEND_COUNT; i++) {
         const int there = pel_backend_available((pel_backend)i);
-        TEST_ASSERT_EQUAL_INT(there ? (int)i : PEL_BACKEND_SCALAR,
-                              pel_backend_resolve((pel_backend)i));
+        const pel_backend wanted = there ? (pel_backend)i : PEL_BACKEND_SCALAR;
+        /* No values: what is computed here must be the same on every machine. */
+        TEST_ASSERT_TRUE(pel_backend_resolve((pel_backend)i) == wanted);
         TEST_ASSERT_TRUE(!there || (unsigned)best >= i); /* in the order of what they do at once */
     }
     TEST_ASSERT_EQUAL_INT(PEL_BACKEND_SCALAR, pel_backend_resolve(PEL_BACKEND_COUNT));
