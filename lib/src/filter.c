@@ -1,7 +1,7 @@
 #include "pel/filter.h"
 
 #include "filter_radius.h"
-#include "row/row_filter_best.h"
+#include "row/row_filter_select.h"
 
 /* ---- Borders ------------------------------------------------------------------------------- */
 
@@ -143,8 +143,8 @@ static int is_kernel(const pel_filter_config *c)
 
 unsigned pel_i_filter_radius(const pel_filter_config *c)
 {
-    const unsigned words = c->op_s16 ? c->op_s16(NULL, 0, c->kernel, NULL) : 0;
-    const unsigned radius = c->op       ? c->op(NULL, 0, c->kernel, NULL)
+    const unsigned words = c->op_s16 ? c->op_s16(NULL, 0, c, NULL) : 0;
+    const unsigned radius = c->op       ? c->op(NULL, 0, c, NULL)
                             : c->op_s16 ? words
                             : c->kernel ? c->kernel->radius
                                         : 0;
@@ -176,6 +176,7 @@ uint16_t pel_filter_height(const pel_filter_config *config)
 static pel_status check_operator(const pel_filter_config *c, unsigned radius)
 {
     if (radius == 0 || (unsigned)c->border > PEL_BORDER_VALID ||
+        (unsigned)c->backend >= PEL_BACKEND_COUNT ||
         (is_kernel(c) && (c->kernel->divisor > 32767 || c->kernel->shift > 15))) {
         return PEL_ERR_ARG;
     }
@@ -210,6 +211,7 @@ pel_status pel_filter_begin(pel_filter *f, const pel_filter_config *config)
         return status;
     }
     f->config = *config;
+    f->config.backend = pel_i_row_backend(config->backend);
     f->radius = (uint8_t)radius;
     f->pushed = 0;
     f->row = 0;
@@ -303,14 +305,14 @@ pel_status pel_filter_pull(pel_filter *f, uint8_t *out)
         return PEL_ERR_ORDER;
     }
     if (f->config.op) {
-        (void)f->config.op(rows, count, f->config.kernel, out);
+        (void)f->config.op(rows, count, &f->config, out);
         return PEL_OK;
     }
     scale = scale_of(f->config.kernel);
     if (f->radius == 1) {
-        PEL_BEST_KERNEL3(rows, f->config.kernel->tap, &scale, count, out);
+        pel_i_row_kernel3(f->config.backend, rows, f->config.kernel->tap, &scale, count, out);
     } else {
-        pel_row_kernel5(rows, f->config.kernel->tap, &scale, count, out);
+        pel_i_row_kernel5(f->config.backend, rows, f->config.kernel->tap, &scale, count, out);
     }
     return PEL_OK;
 }
@@ -332,14 +334,14 @@ pel_status pel_filter_pull_s16(pel_filter *f, int16_t *out)
         return PEL_ERR_ORDER;
     }
     if (f->config.op_s16) {
-        (void)f->config.op_s16(rows, count, f->config.kernel, out);
+        (void)f->config.op_s16(rows, count, &f->config, out);
         return PEL_OK;
     }
     scale = scale_of(f->config.kernel);
     if (f->radius == 1) {
-        pel_row_kernel3_s16(rows, f->config.kernel->tap, &scale, count, out);
+        pel_i_row_kernel3_s16(f->config.backend, rows, f->config.kernel->tap, &scale, count, out);
     } else {
-        pel_row_kernel5_s16(rows, f->config.kernel->tap, &scale, count, out);
+        pel_i_row_kernel5_s16(f->config.backend, rows, f->config.kernel->tap, &scale, count, out);
     }
     return PEL_OK;
 }

@@ -20,7 +20,8 @@ class Config(ctypes.Structure):
     _fields_ = [("op", ctypes.c_void_p), ("op_s16", ctypes.c_void_p),
                 ("kernel", ctypes.POINTER(Kernel)), ("width", ctypes.c_uint16),
                 ("height", ctypes.c_uint16),
-                ("border", ctypes.c_int), ("constant", ctypes.c_uint8),
+                ("border", ctypes.c_int), ("backend", ctypes.c_int),
+                ("constant", ctypes.c_uint8),
                 ("last_rows", ctypes.c_void_p * 2), ("work", ctypes.c_void_p),
                 ("work_bytes", ctypes.c_size_t)]
 

@@ -106,18 +106,18 @@ static void test_begin_refuses_null_pointers(void)
 }
 
 /* Operators that give their kernel's divisor for their radius. */
-static unsigned any_radius(const uint8_t *const rows[], uint16_t count, const pel_kernel *kernel,
-                           uint8_t *bytes)
+static unsigned any_radius(const uint8_t *const rows[], uint16_t count,
+                           const pel_filter_config *config, uint8_t *bytes)
 {
     (void)rows, (void)count, (void)bytes;
-    return kernel->divisor;
+    return config->kernel->divisor;
 }
 
 static unsigned any_radius_s16(const uint8_t *const rows[], uint16_t count,
-                               const pel_kernel *kernel, int16_t *words)
+                               const pel_filter_config *config, int16_t *words)
 {
     (void)rows, (void)count, (void)words;
-    return kernel->divisor;
+    return config->kernel->divisor;
 }
 
 static void expect_begin_with(pel_status expected, pel_filter_config *config, pel_filter_op *op,
@@ -145,6 +145,43 @@ static void test_begin_refuses_radii_that_it_cannot_do(void)
         expect_begin_with(radius == 1 ? PEL_OK : PEL_ERR_ARG, &config, any_radius,
                           pel_op_gradient_s16);
     }
+}
+
+/* An operator that writes which backend it is to use. */
+static unsigned backend_of(const uint8_t *const rows[], uint16_t count,
+                           const pel_filter_config *config, uint8_t *bytes)
+{
+    (void)rows;
+    for (uint16_t x = 0; x < count; x++) {
+        bytes[x] = (uint8_t)config->backend;
+    }
+    return 1;
+}
+
+static void test_begin_chooses_the_backend(void)
+{
+    for (unsigned wish = 0; wish < PEL_BACKEND_COUNT; wish++) {
+        pel_filter_config config = kernel_config("box3");
+        pel_filter filter;
+        uint8_t row[32] = {0};
+        config.op = backend_of;
+        config.height = 1;
+        config.backend = (pel_backend)wish;
+        TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_begin(&filter, &config));
+        TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_push(&filter, row));
+        TEST_ASSERT_EQUAL_INT(PEL_OK, pel_filter_pull(&filter, row));
+        TEST_ASSERT_NOT_EQUAL(PEL_BACKEND_AUTO, row[0]);
+        TEST_ASSERT_TRUE(pel_backend_available((pel_backend)row[0]));
+    }
+}
+
+static void test_begin_refuses_unknown_backends(void)
+{
+    pel_filter_config config = kernel_config("box3");
+    config.backend = PEL_BACKEND_COUNT;
+    expect_begin(PEL_ERR_ARG, &config);
+    config.backend = (pel_backend)-1;
+    expect_begin(PEL_ERR_ARG, &config);
 }
 
 static void test_begin_refuses_unknown_borders(void)
@@ -395,6 +432,8 @@ int main(void)
     RUN_TEST(test_begin_accepts_what_it_should);
     RUN_TEST(test_begin_refuses_null_pointers);
     RUN_TEST(test_begin_refuses_radii_that_it_cannot_do);
+    RUN_TEST(test_begin_chooses_the_backend);
+    RUN_TEST(test_begin_refuses_unknown_backends);
     RUN_TEST(test_begin_refuses_unknown_borders);
     RUN_TEST(test_begin_refuses_kernels_out_of_range);
     RUN_TEST(test_begin_refuses_wrap_without_the_last_rows);

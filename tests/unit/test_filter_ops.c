@@ -249,9 +249,9 @@ static void test_sobel_operators_keep_the_sign(void)
 
 /* One of the caller's own: the header's example. */
 static unsigned brighter_above(const uint8_t *const rows[], uint16_t count,
-                               const pel_kernel *kernel, uint8_t *out)
+                               const pel_filter_config *config, uint8_t *out)
 {
-    (void)kernel;
+    (void)config;
     for (uint16_t x = 0; x < count; x++) {
         out[x] = rows[0][x] > rows[1][x] ? 255 : 0;
     }

@@ -27,6 +27,7 @@
 #ifndef PEL_FILTER_H
 #define PEL_FILTER_H
 
+#include "pel/backend.h"
 #include "pel/image.h"
 
 #ifdef __cplusplus
@@ -95,31 +96,33 @@ pel_kernel pel_kernel_flipped(const pel_kernel *kernel);
 
 /* ---- Operators ----------------------------------------------------------------------------- */
 
+struct pel_filter_config;
+
 /*
  * An operator computes a row of the result: `count` pixels into `out`. rows[0 .. 2r] are the rows
  * from r above to r below; each points at the pixel above, at or below the first result, and r
- * pixels on either side of the `count` ones may be read. `kernel` is that of the config. `out` is
- * none of the rows. It returns its radius r, 1 or 2; to learn it, it is also called with a count of
- * 0, and then rows and out are NULL.
+ * pixels on either side of the `count` ones may be read. `config` is that of the filter, with the
+ * backend that it chose. `out` is none of the rows. It returns its radius r, 1 or 2; to learn it,
+ * it is also called with a count of 0, and then rows and out are NULL.
  *
  * An operator is asked for by its function, so that a program holds those that it names and no
  * others. One of your own is as good as these:
  *
  *     static unsigned brighter_above(const uint8_t *const rows[], uint16_t count,
- *                                    const pel_kernel *kernel, uint8_t *out)
+ *                                    const pel_filter_config *config, uint8_t *out)
  *     {
- *         (void)kernel;
+ *         (void)config;
  *         for (uint16_t x = 0; x < count; x++)
  *             out[x] = rows[0][x] > rows[1][x] ? 255 : 0;
  *         return 1;
  *     }
  */
 typedef unsigned pel_filter_op(const uint8_t *const rows[], uint16_t count,
-                               const pel_kernel *kernel, uint8_t *out);
+                               const struct pel_filter_config *config, uint8_t *out);
 
 /* The same with signed 16-bit results. */
 typedef unsigned pel_filter_op_s16(const uint8_t *const rows[], uint16_t count,
-                                   const pel_kernel *kernel, int16_t *out);
+                                   const struct pel_filter_config *config, int16_t *out);
 
 /* The named kernels of these names, byte for byte, but several times as fast as by their taps. */
 pel_filter_op pel_op_gauss3, pel_op_box3, pel_op_binomial5;
@@ -171,6 +174,7 @@ typedef struct pel_filter_config {
     const pel_kernel *kernel; /* not copied */
     uint16_t width, height;   /* 1..PEL_SIDE_MAX; for VALID at least 2r + 1 */
     pel_border border;
+    pel_backend backend;         /* resolved by begin */
     uint8_t constant;            /* the value outside for PEL_BORDER_CONSTANT */
     const uint8_t *last_rows[2]; /* for PEL_BORDER_WRAP: the last r rows of the picture, upper one
                                     first (of a picture with fewer rows: rows -r.. of it, wrapped);
@@ -193,9 +197,9 @@ uint16_t pel_filter_width(const pel_filter_config *config);
 uint16_t pel_filter_height(const pel_filter_config *config);
 
 /*
- * Starts a picture. PEL_ERR_ARG: null pointer, unknown border, a radius, divisor or shift out of
- * range, two radii, WRAP without last_rows. PEL_ERR_RANGE: a side is 0, over PEL_SIDE_MAX, or too
- * small for VALID. PEL_ERR_SPACE: work_bytes too small.
+ * Starts a picture. PEL_ERR_ARG: null pointer, unknown border or backend, a radius, divisor or
+ * shift out of range, two radii, WRAP without last_rows. PEL_ERR_RANGE: a side is 0, over
+ * PEL_SIDE_MAX, or too small for VALID. PEL_ERR_SPACE: work_bytes too small.
  */
 pel_status pel_filter_begin(pel_filter *filter, const pel_filter_config *config);
 

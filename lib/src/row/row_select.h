@@ -14,6 +14,18 @@
  * up to the processor, plain C. */
 #define PEL_ROW_BUILT_IN PEL_BACKEND_SCALAR
 
+/* What an object keeps of the backend that it is asked for. A choice that the compiler's flags have
+ * made costs no code. */
+static inline pel_backend pel_i_row_backend(pel_backend wish)
+{
+#if defined(PEL_ROW_X86)
+    return pel_backend_resolve(wish);
+#else
+    (void)wish;
+    return PEL_ROW_BUILT_IN;
+#endif
+}
+
 /* nibbles are those of the boxes; not looked at by SCALAR. */
 static inline void pel_i_row_classify_pairs(pel_backend backend, const uint8_t *nibbles,
                                             const pel_row_boxes *boxes, const pel_row_pairs *src,
