@@ -14,32 +14,12 @@ const char *pel_backend_name(pel_backend backend)
 /* ---- What the processor has ---------------------------------------------------------------- */
 
 #if defined(__GNUC__) && defined(__x86_64__)
-#include <cpuid.h>
-
-/* Leaf 1 register ecx, leaf 7 register ebx, XCR0: bits as in the processor's manual. */
-enum { OSXSAVE = 1 << 27, POPCNT = 1 << 23, BMI1 = 1 << 3, AVX2 = 1 << 5, BMI2 = 1 << 8 };
-enum { YMM_STATE = 6 };
-
-/* The register sets that the operating system saves; 0 if it does not say. */
-static unsigned saved_state(unsigned leaf1_ecx)
-{
-    unsigned low = 0, high = 0;
-
-    if (leaf1_ecx & OSXSAVE) {
-        __asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
-    }
-    (void)high;
-    return low;
-}
-
+/* What the compiler's own start-up code found out, whether the operating system saves the registers
+ * included. CPUID itself would take microseconds in a virtual machine, at every begin. */
 static int has_avx2(void)
 {
-    const unsigned wanted = BMI1 | AVX2 | BMI2;
-    unsigned a, b, c, d, leaf1_ecx;
-
-    return __get_cpuid(1, &a, &b, &leaf1_ecx, &d) && (leaf1_ecx & POPCNT) &&
-           (saved_state(leaf1_ecx) & YMM_STATE) == YMM_STATE &&
-           __get_cpuid_count(7, 0, &a, &b, &c, &d) && (b & wanted) == wanted;
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&
+           __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
 }
 #endif
 

@@ -4,7 +4,7 @@
  * Every row kernel exists in plain C; some exist again for instruction sets that work on many
  * pixels at once. Results do not depend on the choice, bit for bit; time does. An object chooses
  * once, when it begins, from what its config says (0 = the best that the processor has), and keeps
- * the choice: nothing global, and the processor is asked once per object.
+ * the choice: nothing global.
  *
  * On x86 the choice is made at run time. Elsewhere the compiler's flags decide what there is: NEON
  * is part of every AArch64, DSP of Armv7E-M, Helium (MVE) of cores such as the Cortex-M55.
@@ -36,7 +36,7 @@ const char *pel_backend_name(pel_backend backend);
 int pel_backend_available(pel_backend backend);
 
 /* What a wish becomes: AUTO the best available, one that is not available SCALAR, others
- * themselves. Asking an x86 processor takes hundreds of cycles: keep the answer. */
+ * themselves. */
 pel_backend pel_backend_resolve(pel_backend wish);
 
 #ifdef __cplusplus
