@@ -11,6 +11,9 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/row/row_avx2.c
     ${PEL_LIB_DIR}/src/row/row_filter_c.c
     ${PEL_LIB_DIR}/src/row/row_filter_dsp.c
+    ${PEL_LIB_DIR}/src/row/row_filter_narrow.c
+    ${PEL_LIB_DIR}/src/row/row_filter_ssse3.c
+    ${PEL_LIB_DIR}/src/row/row_filter_avx2.c
     ${PEL_LIB_DIR}/src/row/row_point_c.c
     ${PEL_LIB_DIR}/src/row/row_feature_c.c
     ${PEL_LIB_DIR}/src/color.c

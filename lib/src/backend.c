@@ -30,6 +30,8 @@ int pel_backend_available(pel_backend backend)
     case PEL_BACKEND_SCALAR:
         return 1;
 #if defined(__GNUC__) && defined(__x86_64__)
+    case PEL_BACKEND_SSSE3:
+        return __builtin_cpu_supports("ssse3") != 0;
     case PEL_BACKEND_AVX2:
         return has_avx2();
 #endif

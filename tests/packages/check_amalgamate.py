@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """amalgamate.py on a project of a few lines that holds what is hard to join: the same private names
-in several sources, variants for machines under #if, private headers under conditions. And what
-cannot be joined is refused by name.
+in several sources, variants for machines under #if, private headers under conditions, templates.
+And what cannot be joined is refused by name.
 
     check_amalgamate.py OUT_DIR
 """
@@ -95,7 +95,7 @@ ROW_FAST = """#include "row/row.h"
 enum { LANES = 4 };
 typedef int (*adder)(int);
 static const uint8_t table[2] __attribute__((aligned(4))) = {STEP, LANES};
-FUNCTION int add(int a) { return a + table[0] * table[1]; }
+#include "row/row_template.h"
 int pel_row_sum(int a)
 {
     const adder use = add;
@@ -103,6 +103,11 @@ int pel_row_sum(int a)
 }
 #pragma GCC diagnostic pop
 #endif
+"""
+
+# A part of each variant, which says what its words mean.
+ROW_TEMPLATE = """/* table has two elements */
+FUNCTION int add(int a) { return a + table[0] * table[1]; }
 """
 
 MODULE = """#include "pel.h"
@@ -132,6 +137,7 @@ FILES = {
     "lib/src/row/row.h": ROW,
     "lib/src/row/row_wide.h": ROW_WIDE,
     "lib/src/row/row_near.h": ROW_NEAR,
+    "lib/src/row/row_template.h": ROW_TEMPLATE,
     "lib/src/row/row_c.c": ROW_C,
     "lib/src/row/row_fast.c": ROW_FAST % {"macro": "FAST", "step": 2},
     "lib/src/row/row_faster.c": ROW_FAST % {"macro": "FASTER", "step": 3},
@@ -161,6 +167,7 @@ REFUSED = {
     "a new name that is taken": ("src/module.c", None, "static int module_add(void)\n{\n"
                                  "    return 0;\n}\n", "module_add"),
     "an unknown header": ("src/module.c", None, '#include "nowhere.h"\n', "nowhere.h"),
+    "an unknown template": ("src/module.c", None, '#include "no_template.h"\n', "no_template.h"),
     "a header named by a macro": ("src/module.c", None, "#include WHERE\n", "WHERE"),
     "a header without a guard": ("src/row/row_wide.h", "#ifndef",
                                  "#if !defined(X)\n#endif\n#ifndef", "row_wide.h"),

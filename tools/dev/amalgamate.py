@@ -6,7 +6,9 @@
 The sources come from lib/pel_files.cmake, the headers from the #include lines. Names that a source
 file has for itself (static functions, constants, types, and those of private headers) are prefixed
 with the name of their file wherever another file uses the same word, so that nothing clashes and
-nothing shadows. What this cannot solve ends the run with an error, and no file is written.
+nothing shadows. A header called ..._template.h is read by several files, each of which says what
+its words mean: it becomes a part of each. What this cannot solve ends the run with an error, and no
+file is written.
 """
 import argparse
 import collections
@@ -27,6 +29,7 @@ TOKEN = re.compile(
       | (?P<sign>->|.)""", re.X | re.S | re.M)
 DIRECTIVE = re.compile(r"[ \t]*#[ \t]*(\w*)[ \t]*(.*)", re.S)
 INCLUDED = re.compile(r'([<"])([^>"]+)[>"]')
+TEMPLATE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+_template\.h)".*\n', re.M)
 OURS = re.compile(r"(pel|PEL)(_|$)")
 WORD = re.compile(r"[A-Za-z_]\w*")
 KEYWORDS = set("""auto break case char const continue default do double else enum extern float for
@@ -46,6 +49,17 @@ def is_name(word):
     return bool(WORD.match(word)) and word not in KEYWORDS
 
 
+def read(path):
+    """The text of a file with the templates that it includes in their places."""
+    def template(match):
+        for folder in path.parents:
+            if (folder / match.group(1)).is_file():
+                return read(folder / match.group(1))
+        raise Problem(f"{path.name}: where is {match.group(1)}?")
+
+    return TEMPLATE.sub(template, path.read_text(encoding="utf-8"))
+
+
 class File:
     """A source or a header: its tokens, what it includes, and the names that it declares."""
 
@@ -53,7 +67,7 @@ class File:
         self.path, self.where = path, where
         self.is_source = path.suffix == ".c"
         self.tokens = [(match.lastgroup, match.group())
-                       for match in TOKEN.finditer(path.read_text(encoding="utf-8"))]
+                       for match in TOKEN.finditer(read(path))]
         self.words = set()
         self.macros = {}    # {name: words of its text, of every #define there is}
         self.includes = {}  # by the index of the token

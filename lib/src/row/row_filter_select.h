@@ -3,15 +3,38 @@
 #define PEL_ROW_FILTER_SELECT_H
 
 #include "row/row_filter_best.h"
+#include "row/row_filter_x86.h"
 #include "row/row_select.h"
 
-/* pel_i_row_NAME(backend, rows, count, out); `plain` is what the compiler's flags chose. */
-#define PEL_ROW_SELECT(name, pixel, plain)                                                         \
+/* The versions of a kernel for x86; rows narrower than a vector are for the next smaller one. */
+#if defined(PEL_ROW_FILTER_X86) && !PEL_ROW_DSP
+#define PEL_ROW_TRY(name, arguments)                                                               \
+    if (backend >= PEL_BACKEND_AVX2 && count >= PEL_ROW_LANES_AVX2) {                              \
+        pel_row_##name##_avx2 arguments;                                                           \
+        return;                                                                                    \
+    }                                                                                              \
+    if (backend >= PEL_BACKEND_SSSE3 && count >= PEL_ROW_LANES_SSSE3) {                            \
+        pel_row_##name##_ssse3 arguments;                                                          \
+        return;                                                                                    \
+    }
+#else
+#define PEL_ROW_TRY(name, arguments) (void)backend;
+#endif
+
+/* pel_i_row_NAME(backend, rows, count, out). `best` is the one that the compiler's flags chose. */
+#define PEL_ROW_PLAIN(name, pixel)                                                                 \
     static inline void pel_i_row_##name(pel_backend backend, const uint8_t *const rows[],          \
                                         uint16_t count, pixel *out)                                \
     {                                                                                              \
         (void)backend;                                                                             \
-        plain(rows, count, out);                                                                   \
+        pel_row_##name(rows, count, out);                                                          \
+    }
+#define PEL_ROW_SELECT(name, pixel, best)                                                          \
+    static inline void pel_i_row_##name(pel_backend backend, const uint8_t *const rows[],          \
+                                        uint16_t count, pixel *out)                                \
+    {                                                                                              \
+        PEL_ROW_TRY(name, (rows, count, out))                                                      \
+        best(rows, count, out);                                                                    \
     }
 
 PEL_ROW_SELECT(gauss3, uint8_t, PEL_BEST_GAUSS3)
@@ -23,22 +46,22 @@ PEL_ROW_SELECT(gradient_abs, uint8_t, PEL_BEST_GRADIENT_ABS)
 PEL_ROW_SELECT(gradient_abs_s16, int16_t, pel_row_gradient_abs_s16)
 PEL_ROW_SELECT(gradient, uint8_t, pel_row_gradient)
 PEL_ROW_SELECT(gradient_s16, int16_t, pel_row_gradient_s16)
-PEL_ROW_SELECT(direction, uint8_t, pel_row_direction)
+PEL_ROW_PLAIN(direction, uint8_t)
 PEL_ROW_SELECT(median3, uint8_t, pel_row_median3)
 PEL_ROW_SELECT(min3, uint8_t, pel_row_min3)
 PEL_ROW_SELECT(max3, uint8_t, pel_row_max3)
-PEL_ROW_SELECT(majority3, uint8_t, pel_row_majority3)
+PEL_ROW_PLAIN(majority3, uint8_t)
 PEL_ROW_SELECT(erode_labels3, uint8_t, pel_row_erode_labels3)
 PEL_ROW_SELECT(dilate_labels3, uint8_t, pel_row_dilate_labels3)
 
 /* pel_i_row_NAME(backend, rows, tap, scale, count, out) */
-#define PEL_ROW_SELECT_KERNEL(name, pixel, plain)                                                  \
+#define PEL_ROW_SELECT_KERNEL(name, pixel, best)                                                   \
     static inline void pel_i_row_##name(pel_backend backend, const uint8_t *const rows[],          \
                                         const int8_t *tap, const pel_row_scale *scale,             \
                                         uint16_t count, pixel *out)                                \
     {                                                                                              \
-        (void)backend;                                                                             \
-        plain(rows, tap, scale, count, out);                                                       \
+        PEL_ROW_TRY(name, (rows, tap, scale, count, out))                                          \
+        best(rows, tap, scale, count, out);                                                        \
     }
 
 PEL_ROW_SELECT_KERNEL(kernel3, uint8_t, PEL_BEST_KERNEL3)
