@@ -20,6 +20,7 @@ static filter_trial trial_of(const pel_kernel *kernel, pel_border border, uint16
     trial.config.kernel = kernel;
     trial.config.border = border;
     trial.config.constant = 255;
+    trial.config.backend = (pel_backend)((width + height) % PEL_BACKEND_COUNT);
     trial.picture.width = width;
     trial.picture.height = height;
     trial.picture.pixels = pixels;

@@ -74,6 +74,7 @@ static filter_trial random_trial(rng *random, unsigned kind, pel_border border, 
     trial.config.kernel = kind < 2 ? &kernel : NULL;
     trial.config.border = border;
     trial.config.constant = (uint8_t)(rng_below(random, 2) ? rng_below(random, 256) : 0);
+    trial.config.backend = (pel_backend)rng_below(random, PEL_BACKEND_COUNT);
     trial.picture.width = width;
     trial.picture.height = height;
     trial.picture.pixels = pixels;

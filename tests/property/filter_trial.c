@@ -12,9 +12,10 @@ const char *filter_trial_text(const filter_trial *trial)
 {
     static char text[240];
     const pel_filter_config *config = &trial->config;
-    int used = snprintf(text, sizeof text, "%ux%u %s %s constant %u", trial->picture.width,
-                        trial->picture.height, ref_op_name(ref_op_of(config)),
-                        border_names[config->border], config->constant);
+    int used =
+        snprintf(text, sizeof text, "%ux%u %s %s constant %u %s", trial->picture.width,
+                 trial->picture.height, ref_op_name(ref_op_of(config)),
+                 border_names[config->border], config->constant, pel_backend_name(config->backend));
     if (ref_op_of(config) == REF_KERNEL) {
         const pel_kernel *k = config->kernel;
         snprintf(text + used, sizeof text - (size_t)used,
