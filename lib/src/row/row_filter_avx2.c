@@ -10,6 +10,8 @@
 #define KERNEL(name) pel_row_##name##_avx2
 #define V(operation) _mm256_##operation
 #define BITS(operation) _mm256_##operation##_si256
+#define MOVED(last, here, n)                                                                       \
+    _mm256_alignr_epi8(here, _mm256_permute2x128_si256(last, here, 0x21), 16 - (n))
 
 enum { LANES = PEL_ROW_LANES_AVX2 };
 typedef __m256i vec;
@@ -21,11 +23,23 @@ INLINE vec everywhere(__m128i bytes)
     return _mm256_broadcastsi128_si256(bytes);
 }
 
-/* Words 0..7 and 16..23 in `low`, 8..15 and 24..31 in `high`, as unpacking leaves them. */
-INLINE void store_words(int16_t *out, vec low, vec high)
+/* 16 bits each, in the order that unpacking bytes gives: 0..7 and 16..23, 8..15 and 24..31. */
+typedef struct words {
+    vec low, high;
+} words;
+
+INLINE void store_half(int16_t *out, __m128i value)
 {
-    _mm256_storeu_si256((void *)out, _mm256_permute2x128_si256(low, high, 0x20));
-    _mm256_storeu_si256((void *)(out + 16), _mm256_permute2x128_si256(low, high, 0x31));
+    _mm_storeu_si128((__m128i_u *)(void *)out, value);
+}
+
+/* Halves one by one: they need not be brought together first. */
+INLINE void store_words(int16_t *out, words results)
+{
+    store_half(out, _mm256_castsi256_si128(results.low));
+    store_half(out + 8, _mm256_castsi256_si128(results.high));
+    store_half(out + 16, _mm256_extracti128_si256(results.low, 1));
+    store_half(out + 24, _mm256_extracti128_si256(results.high, 1));
 }
 
 #include "row/row_filter_template.h"

@@ -13,15 +13,17 @@ static uint32_t magnitude(int8_t tap)
 
 static reach reach_of(const int8_t *taps, unsigned radius)
 {
-    const unsigned side = 2 * radius + 1;
     reach r = {0, 0, 1};
 
-    for (unsigned i = 0; i < side * side; i++) {
-        r.negative += taps[i] < 0 ? magnitude(taps[i]) : 0;
-        r.positive += taps[i] > 0 ? magnitude(taps[i]) : 0;
-        if (i % side % 2 == 0 && i % side != side - 1 &&
-            magnitude(taps[i]) + magnitude(taps[i + 1]) > 128) {
-            r.pairs_fit = 0;
+    for (unsigned row = 0; row <= 2 * radius; row++) {
+        uint32_t before = 0; /* the first of a pair */
+        for (unsigned i = 0; i <= 2 * radius; i++) {
+            const uint32_t size = magnitude(*taps);
+            r.pairs_fit &= (i & 1) == 0 || before + size <= 128;
+            r.negative += *taps < 0 ? size : 0;
+            r.positive += *taps < 0 ? 0 : size;
+            before = size;
+            taps++;
         }
     }
     return r;

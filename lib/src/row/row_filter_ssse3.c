@@ -10,6 +10,7 @@
 #define KERNEL(name) pel_row_##name##_ssse3
 #define V(operation) _mm_##operation
 #define BITS(operation) _mm_##operation##_si128
+#define MOVED(last, here, n) _mm_alignr_epi8(here, last, 16 - (n))
 
 enum { LANES = PEL_ROW_LANES_SSSE3 };
 typedef __m128i vec;
@@ -20,10 +21,20 @@ INLINE vec everywhere(__m128i bytes)
     return bytes;
 }
 
-INLINE void store_words(int16_t *out, vec low, vec high)
+/* 16 bits each, in the order that unpacking bytes gives. */
+typedef struct words {
+    vec low, high;
+} words;
+
+INLINE void store_half(int16_t *out, __m128i value)
 {
-    _mm_storeu_si128((void *)out, low);
-    _mm_storeu_si128((void *)(out + 8), high);
+    _mm_storeu_si128((__m128i_u *)(void *)out, value);
+}
+
+INLINE void store_words(int16_t *out, words results)
+{
+    store_half(out, results.low);
+    store_half(out + 8, results.high);
 }
 
 #include "row/row_filter_template.h"

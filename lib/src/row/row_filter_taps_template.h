@@ -1,6 +1,66 @@
 /* The kernels with taps of one's own: a part of row_filter_template.h, see there. */
 
+/*
+ * Sums for even places 2i and odd places 2i + 1 apart: a vector of bytes is one of pairs, which
+ * _mm_maddubs_epi16 multiplies by two taps and adds up. For an even place the pair that begins at
+ * its left neighbour, and the first one of the pair that begins at its right one; for the odd place
+ * behind it the pair that begins at the even place, and the second one of that other pair.
+ */
+
 /* ---- Sums of 16 bits ----------------------------------------------------------------------- */
+
+/* A sum that is ready here: if the compiler put all sums off to the end, they would not fit into
+ * the registers. */
+INLINE parities ready(parities sums)
+{
+    __asm__("" : "+x"(sums.even), "+x"(sums.odd));
+    return sums;
+}
+
+/* Two taps for the first two of three neighbours, and the third, as first and as second of a
+ * pair. */
+typedef struct taps3 {
+    vec first, third_left, third_right;
+} taps3;
+
+INLINE taps3 taps3_of(int a, int b, int c)
+{
+    const taps3 taps = {taps_of(a, b), taps_of(c, 0), taps_of(0, c)};
+    return taps;
+}
+
+/* Sums of three neighbours each; p is at the first place. */
+INLINE parities row_sum3(const uint8_t *p, const taps3 *taps)
+{
+    const vec left = load(p - 1), here = load(p), right = load(p + 1);
+    const parities sums = {V(add_epi16)(V(maddubs_epi16)(left, taps->first),
+                                        V(maddubs_epi16)(right, taps->third_left)),
+                           V(add_epi16)(V(maddubs_epi16)(here, taps->first),
+                                        V(maddubs_epi16)(right, taps->third_right))};
+    return sums;
+}
+
+typedef struct taps5 {
+    vec first, third, fifth_left, fifth_right;
+} taps5;
+
+INLINE taps5 taps5_of(int a, int b, int c, int d, int e)
+{
+    const taps5 taps = {taps_of(a, b), taps_of(c, d), taps_of(e, 0), taps_of(0, e)};
+    return taps;
+}
+
+INLINE parities row_sum5(const uint8_t *p, const taps5 *taps)
+{
+    const vec fifth = load(p + 2);
+    const vec even = V(add_epi16)(V(maddubs_epi16)(load(p - 2), taps->first),
+                                  V(maddubs_epi16)(load(p), taps->third));
+    const vec odd = V(add_epi16)(V(maddubs_epi16)(load(p - 1), taps->first),
+                                 V(maddubs_epi16)(load(p + 1), taps->third));
+    const parities sums = {V(add_epi16)(even, V(maddubs_epi16)(fifth, taps->fifth_left)),
+                           V(add_epi16)(odd, V(maddubs_epi16)(fifth, taps->fifth_right))};
+    return sums;
+}
 
 typedef struct narrow_scale {
     vec add, factor, subtract, bias;
@@ -35,8 +95,9 @@ INLINE void store_parities(void *out, int x, int bytes, parities results)
         const vec limited = V(packus_epi16)(results.even, results.odd);
         store((uint8_t *)out + x, V(shuffle_epi8)(limited, places));
     } else {
-        store_words((int16_t *)out + x, V(unpacklo_epi16)(results.even, results.odd),
-                    V(unpackhi_epi16)(results.even, results.odd));
+        const words ordered = {V(unpacklo_epi16)(results.even, results.odd),
+                               V(unpackhi_epi16)(results.even, results.odd)};
+        store_words((int16_t *)out + x, ordered);
     }
 }
 
@@ -58,9 +119,9 @@ INLINE void narrow_kernel3(const uint8_t *const rows[], const int8_t *t,
     const narrow_scale scale = narrow_scale_of(narrow);
 
     for (int x = 0; x < count; x = behind(x, count)) {
-        const parities sums =
-            sum_of_parities(sum_of_parities(row_sum3(a + x, &upper), row_sum3(b + x, &middle)),
-                            row_sum3(c + x, &lower));
+        const parities sums = sum_of_parities(
+            ready(sum_of_parities(row_sum3(a + x, &upper), row_sum3(b + x, &middle))),
+            row_sum3(c + x, &lower));
         store_parities(out, x, bytes, narrow_results(sums, &copy, &scale));
     }
 }
@@ -79,7 +140,7 @@ INLINE void narrow_kernel5(const uint8_t *const rows[], const int8_t *t,
     for (int x = 0; x < count; x = behind(x, count)) {
         parities sums = row_sum5(row[0] + x, &taps[0]);
         for (int r = 1; r < 5; r++) {
-            sums = sum_of_parities(sums, row_sum5(row[r] + x, &taps[r]));
+            sums = ready(sum_of_parities(sums, row_sum5(row[r] + x, &taps[r])));
         }
         store_parities(out, x, bytes, narrow_results(sums, &copy, &scale));
     }
@@ -146,14 +207,13 @@ INLINE void wide_kernel(const uint8_t *const rows[], int radius, const int8_t *t
     }
     for (int x = 0; x < count; x = behind(x, count)) {
         const quads sums = wide_sums(row, x, radius, tap);
-        const vec low =
-            V(packs_epi32)(wide_result(sums.first, &copy), wide_result(sums.second, &copy));
-        const vec high =
-            V(packs_epi32)(wide_result(sums.third, &copy), wide_result(sums.fourth, &copy));
+        const words results = {
+            V(packs_epi32)(wide_result(sums.first, &copy), wide_result(sums.second, &copy)),
+            V(packs_epi32)(wide_result(sums.third, &copy), wide_result(sums.fourth, &copy))};
         if (bytes) {
-            store((uint8_t *)out + x, V(packus_epi16)(low, high));
+            store((uint8_t *)out + x, V(packus_epi16)(results.low, results.high));
         } else {
-            store_words((int16_t *)out + x, low, high);
+            store_words((int16_t *)out + x, results);
         }
     }
 }

@@ -1,17 +1,16 @@
 /*
  * The row kernels of neighbourhoods in the vectors of x86, whatever their width. The file that
- * includes this one says what the words mean: vec is a vector and LANES its bytes, V(op) and
- * BITS(op) are the intrinsic functions of its width, `everywhere` repeats 16 bytes, store_words
- * writes what unpacking bytes left behind, and ISA, INLINE and KERNEL say for what a function is
- * compiled and what it is called.
+ * includes this one says what the words mean:
+ *     vec, LANES               a vector and its bytes
+ *     V(op), BITS(op)          the intrinsic functions of its width
+ *     everywhere(bytes)        16 bytes in every 16 of a vector
+ *     MOVED(last, here, n)     what lies n bytes before `here` if `last` lies before it
+ *     words, store_words       results of 16 bits, as unpacking bytes leaves them
+ *     ISA, INLINE, KERNEL      for what a function is compiled, what it is called
  *
  * The last vector of a row ends where the row ends and so overlaps the one before it: the results
  * there are written twice. Nothing outside the neighbours of the row is read.
  */
-
-typedef struct words {
-    vec low, high; /* 16 bits each, in the order that unpacking bytes gives */
-} words;
 
 INLINE vec load(const uint8_t *bytes)
 {
@@ -50,23 +49,29 @@ INLINE words sum_of(words a, words b)
     return sums;
 }
 
-/* Results of the even places, 0..255 in 16 bits, and of the odd ones between them. */
-INLINE vec interleaved(vec even, vec odd)
+INLINE words difference_of(words a, words b)
 {
-    return BITS(or)(even, V(slli_epi16)(odd, 8));
+    const words differences = {V(sub_epi16)(a.low, b.low), V(sub_epi16)(a.high, b.high)};
+    return differences;
 }
 
-/* ---- Kernels of fixed taps ----------------------------------------------------------------- */
+/* ---- Columns in 16 bits -------------------------------------------------------------------- */
 
 /*
- * Even places 2i and odd places 2i + 1 apart: a vector of bytes is one of pairs, which
- * _mm_maddubs_epi16 multiplies by two taps and adds up. For an even place the pair that begins at
- * its left neighbour and one of the pair that begins at its right one; for an odd place the pair
- * that begins at its left neighbour is the pair at the even place, and so on.
+ * Sums of columns, those of every other place apart. A vector of columns ends one place right of
+ * the results that it completes; what they need of the columns to the left comes from the vector
+ * before. The first one of a row and the one that overlaps have none before them: there the few
+ * columns that count are repeated all over a vector.
  */
 typedef struct parities {
     vec even, odd;
 } parities;
+
+INLINE parities parities_of(vec bytes)
+{
+    const parities both = {BITS(and)(bytes, V(set1_epi16)(255)), V(srli_epi16)(bytes, 8)};
+    return both;
+}
 
 INLINE parities sum_of_parities(parities a, parities b)
 {
@@ -74,163 +79,237 @@ INLINE parities sum_of_parities(parities a, parities b)
     return sums;
 }
 
-/* Two taps for the first two of three neighbours, and the third, as first and as second of a
- * pair. */
-typedef struct taps3 {
-    vec first, third_left, third_right;
-} taps3;
-
-INLINE taps3 taps3_of(int a, int b, int c)
+/* Results of the even places, 0..255 in 16 bits, and of the odd ones between them. */
+INLINE vec interleaved(vec even, vec odd)
 {
-    const taps3 taps = {taps_of(a, b), taps_of(c, 0), taps_of(0, c)};
-    return taps;
+    return BITS(or)(even, V(slli_epi16)(odd, 8));
 }
 
-/* Sums of three neighbours each; p is at the first place. */
-INLINE parities row_sum3(const uint8_t *p, const taps3 *taps)
+/* The two columns at p all over. */
+INLINE vec two_at(const uint8_t *p)
 {
-    const vec left = load(p - 1), here = load(p), right = load(p + 1);
-    const parities sums = {V(add_epi16)(V(maddubs_epi16)(left, taps->first),
-                                        V(maddubs_epi16)(right, taps->third_left)),
-                           V(add_epi16)(V(maddubs_epi16)(here, taps->first),
-                                        V(maddubs_epi16)(right, taps->third_right))};
-    return sums;
+    return taps_of(p[0], p[1]);
 }
 
-typedef struct taps5 {
-    vec first, third, fifth_left, fifth_right;
-} taps5;
+/* The odd ones and both together, which is what the next vector needs. */
+typedef struct columns3 {
+    vec odd, both, even;
+} columns3;
 
-INLINE taps5 taps5_of(int a, int b, int c, int d, int e)
+INLINE columns3 columns3_of(parities sums)
 {
-    const taps5 taps = {taps_of(a, b), taps_of(c, d), taps_of(e, 0), taps_of(0, e)};
-    return taps;
+    const columns3 columns = {sums.odd, V(add_epi16)(sums.even, sums.odd), sums.even};
+    return columns;
 }
 
-INLINE parities row_sum5(const uint8_t *p, const taps5 *taps)
+INLINE columns3 gauss_columns(vec a, vec b, vec c)
 {
-    const vec fifth = load(p + 2);
-    const vec even = V(add_epi16)(V(maddubs_epi16)(load(p - 2), taps->first),
-                                  V(maddubs_epi16)(load(p), taps->third));
-    const vec odd = V(add_epi16)(V(maddubs_epi16)(load(p - 1), taps->first),
-                                 V(maddubs_epi16)(load(p + 1), taps->third));
-    const parities sums = {V(add_epi16)(even, V(maddubs_epi16)(fifth, taps->fifth_left)),
-                           V(add_epi16)(odd, V(maddubs_epi16)(fifth, taps->fifth_right))};
-    return sums;
+    const parities middle = parities_of(b);
+    return columns3_of(sum_of_parities(sum_of_parities(parities_of(a), parities_of(c)),
+                                       sum_of_parities(middle, middle)));
+}
+
+/* With columns e0 o0 e1 o1 ...: e0 + 2 o0 + e1 = (e0 + o0) + (o0 + e1), and o0 + 2 e1 + o1. */
+INLINE vec gauss_of(columns3 last, columns3 here)
+{
+    const vec middle =
+        V(add_epi16)(V(add_epi16)(MOVED(last.odd, here.odd, 2), here.even), V(set1_epi16)(8));
+    const vec even = V(add_epi16)(MOVED(last.both, here.both, 2), middle);
+    const vec odd = V(add_epi16)(middle, here.both);
+    return interleaved(V(srli_epi16)(even, 4), V(srli_epi16)(odd, 4));
 }
 
 ISA void KERNEL(gauss3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    const taps3 outer = taps3_of(1, 2, 1), inner = taps3_of(2, 4, 2);
-    const vec half = V(set1_epi16)(8);
+    columns3 last = gauss_columns(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        const parities sums =
-            sum_of_parities(sum_of_parities(row_sum3(a + x, &outer), row_sum3(b + x, &inner)),
-                            row_sum3(c + x, &outer));
-        store(out + x, interleaved(V(srli_epi16)(V(add_epi16)(sums.even, half), 4),
-                                   V(srli_epi16)(V(add_epi16)(sums.odd, half), 4)));
+    for (int x = 0, next; x < count; x = next) {
+        const columns3 here = gauss_columns(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+        store(out + x, gauss_of(last, here));
+        next = behind(x, count);
+        last = here;
+        if (next != x + LANES) {
+            last = gauss_columns(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+        }
     }
+}
+
+INLINE columns3 box_columns(vec a, vec b, vec c)
+{
+    return columns3_of(
+        sum_of_parities(sum_of_parities(parities_of(a), parities_of(b)), parities_of(c)));
+}
+
+INLINE vec box_of(columns3 last, columns3 here)
+{
+    const vec half = V(set1_epi16)(4), ninth = V(set1_epi16)(7282); /* see plain C */
+    const vec even = V(add_epi16)(MOVED(last.both, here.both, 2), here.even);
+    const vec odd = V(add_epi16)(MOVED(last.odd, here.odd, 2), here.both);
+    return interleaved(V(mulhi_epu16)(V(add_epi16)(even, half), ninth),
+                       V(mulhi_epu16)(V(add_epi16)(odd, half), ninth));
 }
 
 ISA void KERNEL(box3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    const taps3 ones = taps3_of(1, 1, 1);
-    const vec half = V(set1_epi16)(4), ninth = V(set1_epi16)(7282);
+    columns3 last = box_columns(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        const parities sums =
-            sum_of_parities(sum_of_parities(row_sum3(a + x, &ones), row_sum3(b + x, &ones)),
-                            row_sum3(c + x, &ones));
-        store(out + x, interleaved(V(mulhi_epu16)(V(add_epi16)(sums.even, half), ninth),
-                                   V(mulhi_epu16)(V(add_epi16)(sums.odd, half), ninth)));
+    for (int x = 0, next; x < count; x = next) {
+        const columns3 here = box_columns(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+        store(out + x, box_of(last, here));
+        next = behind(x, count);
+        last = here;
+        if (next != x + LANES) {
+            last = box_columns(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+        }
     }
 }
 
-/* At most 65280 + 128: 16 bits without a sign. */
+/* Outer two, next two and middle one: outer + 4 next + 6 middle. Rows: at most 4080, columns of
+ * them 65280: 16 bits without a sign. */
+INLINE vec binomial_of(vec outer, vec next, vec middle)
+{
+    return V(add_epi16)(V(add_epi16)(outer, V(slli_epi16)(next, 2)),
+                        V(mullo_epi16)(middle, V(set1_epi16)(6)));
+}
+
+INLINE parities binomial_columns(vec a, vec b, vec c, vec d, vec e)
+{
+    const parities outer = sum_of_parities(parities_of(a), parities_of(e));
+    const parities next = sum_of_parities(parities_of(b), parities_of(d));
+    const parities middle = parities_of(c);
+    const parities sums = {binomial_of(outer.even, next.even, middle.even),
+                           binomial_of(outer.odd, next.odd, middle.odd)};
+    return sums;
+}
+
+/* With columns e0 o0 e1 o1 e2 o2: of the first five, and of the last. */
+INLINE vec binomials_of(parities last, parities here)
+{
+    const vec e1 = MOVED(last.even, here.even, 2), o1 = MOVED(last.odd, here.odd, 2);
+    const vec e0 = MOVED(last.even, here.even, 4), o0 = MOVED(last.odd, here.odd, 4);
+    const vec half = V(set1_epi16)(128);
+    const vec even =
+        binomial_of(V(add_epi16)(V(add_epi16)(e0, half), here.even), V(add_epi16)(o0, o1), e1);
+    const vec odd = binomial_of(V(add_epi16)(V(add_epi16)(o0, half), here.odd),
+                                V(add_epi16)(e1, here.even), o1);
+    return interleaved(V(srli_epi16)(even, 8), V(srli_epi16)(odd, 8));
+}
+
+/* The four columns at p all over. */
+INLINE vec four_at(const uint8_t *p)
+{
+    return V(set1_epi32)(
+        (int32_t)(p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24));
+}
+
 ISA void KERNEL(binomial5)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2], *const d = rows[3],
                          *const e = rows[4];
-    const taps5 outer = taps5_of(1, 4, 6, 4, 1), next = taps5_of(4, 16, 24, 16, 4);
-    const taps5 inner = taps5_of(6, 24, 36, 24, 6);
-    const vec half = V(set1_epi16)(128);
+    parities last = binomial_columns(four_at(a - 2), four_at(b - 2), four_at(c - 2), four_at(d - 2),
+                                     four_at(e - 2));
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        const parities upper = sum_of_parities(row_sum5(a + x, &outer), row_sum5(b + x, &next));
-        const parities lower = sum_of_parities(row_sum5(d + x, &next), row_sum5(e + x, &outer));
-        const parities sums =
-            sum_of_parities(sum_of_parities(upper, lower), row_sum5(c + x, &inner));
-        store(out + x, interleaved(V(srli_epi16)(V(add_epi16)(sums.even, half), 8),
-                                   V(srli_epi16)(V(add_epi16)(sums.odd, half), 8)));
+    for (int x = 0, next; x < count; x = next) {
+        const int right = x + 2;
+        const parities here = binomial_columns(load(a + right), load(b + right), load(c + right),
+                                               load(d + right), load(e + right));
+        store(out + x, binomials_of(last, here));
+        next = behind(x, count);
+        last = here;
+        if (next != x + LANES) {
+            const int left = next - 2;
+            last = binomial_columns(four_at(a + left), four_at(b + left), four_at(c + left),
+                                    four_at(d + left), four_at(e + left));
+        }
     }
 }
 
 /* ---- Gradients ----------------------------------------------------------------------------- */
 
-INLINE words sobel_x_at(const uint8_t *a, const uint8_t *b, const uint8_t *c)
+/*
+ * With the pixels as a sees them: . a .   differences d1 = right - left, d2 = below - above,
+ *                                 . . .   and those across, d3 = lower right - upper left, d4 =
+ *                                 . . .   upper right - lower left,
+ * gx + gy = 2 (d1 + d2 + d3), gx - gy = 2 (d1 - d2 + d4). And |gx| + |gy| is the larger one of
+ * |gx + gy| and |gx - gy|, gx^2 + gy^2 half the sum of their squares.
+ */
+typedef struct diagonals {
+    words sum, difference; /* of gx and gy: half of them if `one` is 1, all if it is 2 */
+} diagonals;
+
+INLINE diagonals diagonals_at(const uint8_t *a, const uint8_t *b, const uint8_t *c, int one)
 {
-    const vec outer = taps_of(-1, 1), inner = taps_of(-2, 2);
-    return sum_of(sum_of(weighted(load(a - 1), load(a + 1), outer),
-                         weighted(load(b - 1), load(b + 1), inner)),
-                  weighted(load(c - 1), load(c + 1), outer));
+    const vec taps = taps_of(-one, one);
+    const words d1 = weighted(load(b - 1), load(b + 1), taps);
+    const words d2 = weighted(load(a), load(c), taps);
+    const words d3 = weighted(load(a - 1), load(c + 1), taps);
+    const words d4 = weighted(load(c - 1), load(a + 1), taps);
+    const diagonals d = {sum_of(sum_of(d1, d2), d3), sum_of(difference_of(d1, d2), d4)};
+    return d;
 }
 
-INLINE words sobel_y_at(const uint8_t *a, const uint8_t *c)
+INLINE vec larger_magnitude(vec a, vec b)
 {
-    const vec outer = taps_of(-1, 1), inner = taps_of(-2, 2);
-    return sum_of(
-        sum_of(weighted(load(a - 1), load(c - 1), outer), weighted(load(a), load(c), inner)),
-        weighted(load(a + 1), load(c + 1), outer));
+    return V(max_epi16)(V(abs_epi16)(a), V(abs_epi16)(b));
 }
 
-/* |gx| + |gy| */
-INLINE words absolute_sum(words gx, words gy)
+INLINE words absolute_sum_at(const uint8_t *a, const uint8_t *b, const uint8_t *c)
 {
-    const words sums = {V(add_epi16)(V(abs_epi16)(gx.low), V(abs_epi16)(gy.low)),
-                        V(add_epi16)(V(abs_epi16)(gx.high), V(abs_epi16)(gy.high))};
+    const diagonals d = diagonals_at(a, b, c, 2);
+    const words sums = {larger_magnitude(d.sum.low, d.difference.low),
+                        larger_magnitude(d.sum.high, d.difference.high)};
     return sums;
 }
 
-/* floor(sqrt(value)), value < 2^21: single precision holds it exactly, and its root is never
+/* floor(sqrt(2 value)), value < 2^20: single precision holds it exactly, and its root is never
  * rounded up to a whole number, as that is at least 2^-12 away and the last digit 2^-13. */
-INLINE vec root_of(vec value)
+INLINE vec root_of_twice(vec value)
 {
-    return V(cvttps_epi32)(V(sqrt_ps)(V(cvtepi32_ps)(value)));
+    return V(cvttps_epi32)(V(sqrt_ps)(V(cvtepi32_ps)(V(add_epi32)(value, value))));
 }
 
-INLINE vec length_of_8(vec gx, vec gy)
+/* Of halves: gx^2 + gy^2 = 2 (sum^2 + difference^2). */
+INLINE vec length_of(vec sum, vec difference)
 {
-    const vec first = V(unpacklo_epi16)(gx, gy), second = V(unpackhi_epi16)(gx, gy);
-    return V(packs_epi32)(root_of(V(madd_epi16)(first, first)),
-                          root_of(V(madd_epi16)(second, second)));
+    const vec first = V(unpacklo_epi16)(sum, difference);
+    const vec second = V(unpackhi_epi16)(sum, difference);
+    return V(packs_epi32)(root_of_twice(V(madd_epi16)(first, first)),
+                          root_of_twice(V(madd_epi16)(second, second)));
 }
 
-INLINE words length_of(words gx, words gy)
+INLINE words length_at(const uint8_t *a, const uint8_t *b, const uint8_t *c)
 {
-    const words lengths = {length_of_8(gx.low, gy.low), length_of_8(gx.high, gy.high)};
+    const diagonals d = diagonals_at(a, b, c, 1);
+    const words lengths = {length_of(d.sum.low, d.difference.low),
+                           length_of(d.sum.high, d.difference.high)};
     return lengths;
 }
 
 ISA void KERNEL(sobel_x)(const uint8_t *const rows[], uint16_t count, int16_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
+    const vec outer = taps_of(-1, 1), inner = taps_of(-2, 2);
 
     for (int x = 0; x < count; x = behind(x, count)) {
-        const words gx = sobel_x_at(a + x, b + x, c + x);
-        store_words(out + x, gx.low, gx.high);
+        const words upper = weighted(load(a + x - 1), load(a + x + 1), outer);
+        const words middle = weighted(load(b + x - 1), load(b + x + 1), inner);
+        const words lower = weighted(load(c + x - 1), load(c + x + 1), outer);
+        store_words(out + x, sum_of(sum_of(upper, middle), lower));
     }
 }
 
 ISA void KERNEL(sobel_y)(const uint8_t *const rows[], uint16_t count, int16_t *out)
 {
     const uint8_t *const a = rows[0], *const c = rows[2];
+    const vec outer = taps_of(-1, 1), inner = taps_of(-2, 2);
 
     for (int x = 0; x < count; x = behind(x, count)) {
-        const words gy = sobel_y_at(a + x, c + x);
-        store_words(out + x, gy.low, gy.high);
+        const words left = weighted(load(a + x - 1), load(c + x - 1), outer);
+        const words middle = weighted(load(a + x), load(c + x), inner);
+        const words right = weighted(load(a + x + 1), load(c + x + 1), outer);
+        store_words(out + x, sum_of(sum_of(left, middle), right));
     }
 }
 
@@ -239,7 +318,7 @@ ISA void KERNEL(gradient_abs)(const uint8_t *const rows[], uint16_t count, uint8
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
 
     for (int x = 0; x < count; x = behind(x, count)) {
-        const words sums = absolute_sum(sobel_x_at(a + x, b + x, c + x), sobel_y_at(a + x, c + x));
+        const words sums = absolute_sum_at(a + x, b + x, c + x);
         store(out + x, V(packus_epi16)(sums.low, sums.high));
     }
 }
@@ -249,8 +328,7 @@ ISA void KERNEL(gradient_abs_s16)(const uint8_t *const rows[], uint16_t count, i
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
 
     for (int x = 0; x < count; x = behind(x, count)) {
-        const words sums = absolute_sum(sobel_x_at(a + x, b + x, c + x), sobel_y_at(a + x, c + x));
-        store_words(out + x, sums.low, sums.high);
+        store_words(out + x, absolute_sum_at(a + x, b + x, c + x));
     }
 }
 
@@ -259,7 +337,7 @@ ISA void KERNEL(gradient)(const uint8_t *const rows[], uint16_t count, uint8_t *
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
 
     for (int x = 0; x < count; x = behind(x, count)) {
-        const words lengths = length_of(sobel_x_at(a + x, b + x, c + x), sobel_y_at(a + x, c + x));
+        const words lengths = length_at(a + x, b + x, c + x);
         store(out + x, V(packus_epi16)(lengths.low, lengths.high));
     }
 }
@@ -269,8 +347,7 @@ ISA void KERNEL(gradient_s16)(const uint8_t *const rows[], uint16_t count, int16
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
 
     for (int x = 0; x < count; x = behind(x, count)) {
-        const words lengths = length_of(sobel_x_at(a + x, b + x, c + x), sobel_y_at(a + x, c + x));
-        store_words(out + x, lengths.low, lengths.high);
+        store_words(out + x, length_at(a + x, b + x, c + x));
     }
 }
 
@@ -301,96 +378,146 @@ INLINE vec middle_of(vec a, vec b, vec c)
     return larger(smaller(a, b), smaller(larger(a, b), c));
 }
 
-typedef struct columns {
-    vec low, middle, high; /* the three of each column in order */
-} columns;
+/* The three of each column in order. */
+typedef struct sorted_columns {
+    vec low, middle, high;
+} sorted_columns;
 
-INLINE columns sorted_columns(vec a, vec b, vec c)
+INLINE sorted_columns sorted(vec a, vec b, vec c)
 {
     const vec low = smaller(a, b), high = larger(a, b);
-    const columns sorted = {smaller(low, c), larger(low, smaller(high, c)), larger(high, c)};
-    return sorted;
+    const sorted_columns columns = {smaller(low, c), larger(low, smaller(high, c)),
+                                    larger(high, c)};
+    return columns;
 }
 
 /* As in plain C. */
+INLINE vec median_of(sorted_columns last, sorted_columns here)
+{
+    const vec low = largest(MOVED(last.low, here.low, 2), MOVED(last.low, here.low, 1), here.low);
+    const vec middle = middle_of(MOVED(last.middle, here.middle, 2),
+                                 MOVED(last.middle, here.middle, 1), here.middle);
+    const vec high =
+        smallest(MOVED(last.high, here.high, 2), MOVED(last.high, here.high, 1), here.high);
+    return middle_of(low, middle, high);
+}
+
 ISA void KERNEL(median3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
+    sorted_columns last = sorted(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        const columns left = sorted_columns(load(a + x - 1), load(b + x - 1), load(c + x - 1));
-        const columns here = sorted_columns(load(a + x), load(b + x), load(c + x));
-        const columns right = sorted_columns(load(a + x + 1), load(b + x + 1), load(c + x + 1));
-        store(out + x, middle_of(largest(left.low, here.low, right.low),
-                                 middle_of(left.middle, here.middle, right.middle),
-                                 smallest(left.high, here.high, right.high)));
+    for (int x = 0, next; x < count; x = next) {
+        const sorted_columns here = sorted(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+        store(out + x, median_of(last, here));
+        next = behind(x, count);
+        last = here;
+        if (next != x + LANES) {
+            last = sorted(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+        }
     }
 }
 
-INLINE vec smallest_of_row(const uint8_t *p)
+/* Of columns: the smallest, and the largest, of three neighbours. */
+INLINE vec smallest_of(vec last, vec here)
 {
-    return smallest(load(p - 1), load(p), load(p + 1));
+    return smallest(MOVED(last, here, 2), MOVED(last, here, 1), here);
 }
 
-INLINE vec largest_of_row(const uint8_t *p)
+INLINE vec largest_of(vec last, vec here)
 {
-    return largest(load(p - 1), load(p), load(p + 1));
+    return largest(MOVED(last, here, 2), MOVED(last, here, 1), here);
 }
 
 ISA void KERNEL(min3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
+    vec last = smallest(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        store(out + x,
-              smallest(smallest_of_row(a + x), smallest_of_row(b + x), smallest_of_row(c + x)));
+    for (int x = 0, next; x < count; x = next) {
+        const vec here = smallest(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+        store(out + x, smallest_of(last, here));
+        next = behind(x, count);
+        last = here;
+        if (next != x + LANES) {
+            last = smallest(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+        }
     }
 }
 
 ISA void KERNEL(max3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
+    vec last = largest(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        store(out + x,
-              largest(largest_of_row(a + x), largest_of_row(b + x), largest_of_row(c + x)));
+    for (int x = 0, next; x < count; x = next) {
+        const vec here = largest(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+        store(out + x, largest_of(last, here));
+        next = behind(x, count);
+        last = here;
+        if (next != x + LANES) {
+            last = largest(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+        }
     }
 }
 
 /* ---- Labels -------------------------------------------------------------------------------- */
 
 /* All nine are equal where the smallest is the largest. */
+typedef struct extremes {
+    vec low, high;
+} extremes;
+
+INLINE extremes extremes_of(vec a, vec b, vec c)
+{
+    const extremes e = {smallest(a, b, c), largest(a, b, c)};
+    return e;
+}
+
 ISA void KERNEL(erode_labels3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
+    extremes last = extremes_of(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        const vec low =
-            smallest(smallest_of_row(a + x), smallest_of_row(b + x), smallest_of_row(c + x));
-        const vec high =
-            largest(largest_of_row(a + x), largest_of_row(b + x), largest_of_row(c + x));
+    for (int x = 0, next; x < count; x = next) {
+        const extremes here = extremes_of(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+        const vec low = smallest_of(last.low, here.low);
+        const vec high = largest_of(last.high, here.high);
         store(out + x, BITS(and)(low, V(cmpeq_epi8)(low, high)));
+        next = behind(x, count);
+        last = here;
+        if (next != x + LANES) {
+            last = extremes_of(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+        }
     }
 }
 
-/* Labels less one, so that 0 is the largest of all. */
-INLINE vec smallest_label_of_row(const uint8_t *p)
+/* The smallest label, less one, so that none is the largest of all. */
+INLINE vec label_columns(vec a, vec b, vec c)
 {
     const vec one = V(set1_epi8)(1);
-    return smallest(V(sub_epi8)(load(p - 1), one), V(sub_epi8)(load(p), one),
-                    V(sub_epi8)(load(p + 1), one));
+    return smallest(V(sub_epi8)(a, one), V(sub_epi8)(b, one), V(sub_epi8)(c, one));
+}
+
+INLINE vec dilated(vec own, vec found)
+{
+    const vec label = V(add_epi8)(found, V(set1_epi8)(1));
+    const vec none = V(cmpeq_epi8)(own, BITS(setzero)());
+    return BITS(or)(own, BITS(and)(label, none));
 }
 
 ISA void KERNEL(dilate_labels3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
+    vec last = label_columns(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        const vec own = load(b + x);
-        const vec found = smallest(smallest_label_of_row(a + x), smallest_label_of_row(b + x),
-                                   smallest_label_of_row(c + x));
-        const vec label = V(add_epi8)(found, V(set1_epi8)(1));
-        const vec none = V(cmpeq_epi8)(own, BITS(setzero)());
-        store(out + x, BITS(or)(own, BITS(and)(label, none)));
+    for (int x = 0, next; x < count; x = next) {
+        const vec here = label_columns(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+        store(out + x, dilated(load(b + x), smallest_of(last, here)));
+        next = behind(x, count);
+        last = here;
+        if (next != x + LANES) {
+            last = label_columns(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+        }
     }
 }
