@@ -60,10 +60,11 @@ static uint8_t *slot_at(const pel_filter *f, size_t slot)
     return (uint8_t *)f->config.work + slot * slot_bytes(f) + f->radius;
 }
 
-/* y from -r to height + r - 1. */
-static uint8_t *row_slot(const pel_filter *f, int32_t y)
+/* The slot `below` ones after that of the next row to be pushed; below: 0..2r. */
+static unsigned slot_after(const pel_filter *f, unsigned below)
 {
-    return slot_at(f, (size_t)modulo(y, 2 * f->radius + 1));
+    const unsigned slots = 2u * f->radius + 1u, slot = f->slot + below;
+    return slot < slots ? slot : slot - slots;
 }
 
 static void fill(uint8_t *row, uint8_t value, size_t count)
@@ -73,63 +74,75 @@ static void fill(uint8_t *row, uint8_t value, size_t count)
     }
 }
 
-static void put_sides(const pel_filter *f, uint8_t *row)
+/* Which pixels of a row stand on either side of it: the same ones in every row. */
+static void find_sides(pel_filter *f)
 {
     const int32_t width = f->config.width;
 
-    for (int32_t i = 1; i <= f->radius; i++) {
-        const int32_t left = pel_border_index(-i, width, f->config.border);
-        const int32_t right = pel_border_index(width - 1 + i, width, f->config.border);
-        row[-i] = left < 0 ? f->config.constant : row[left];
-        row[width - 1 + i] = right < 0 ? f->config.constant : row[right];
+    for (int32_t i = 0; i < f->radius; i++) {
+        f->left[i] = (int16_t)pel_border_index(-1 - i, width, f->config.border);
+        f->right[i] = (int16_t)pel_border_index(width + i, width, f->config.border);
     }
 }
 
 static void put_row(const pel_filter *f, const uint8_t *src, uint8_t *row)
 {
+    uint8_t *left = row, *right = row + f->config.width;
+
     PEL_BEST_COPY(src, f->config.width, row);
-    put_sides(f, row);
+    for (unsigned i = 0; i < f->radius; i++) {
+        *--left = f->left[i] < 0 ? f->config.constant : row[f->left[i]];
+        *right++ = f->right[i] < 0 ? f->config.constant : row[f->right[i]];
+    }
 }
 
-/* The rows above the picture: those that are copies need nothing, the others go into
- * their slots. */
+/* The rows above the picture: those that are copies need nothing, the others go into the slots
+ * before that of the first row. */
 static void put_rows_above(const pel_filter *f)
 {
-    const int32_t r = f->radius;
+    const unsigned r = f->radius;
 
-    for (int32_t i = 0; i < r; i++) {
+    for (unsigned i = 0; i < r; i++) {
+        uint8_t *const row = slot_at(f, r + 1 + i);
         if (f->config.border == PEL_BORDER_WRAP) {
-            put_row(f, f->config.last_rows[i], row_slot(f, i - r));
+            put_row(f, f->config.last_rows[i], row);
         } else {
-            fill(row_slot(f, i - r) - r, f->config.constant, slot_bytes(f));
+            fill(row - r, f->config.constant, slot_bytes(f));
         }
     }
 }
 
-/* The row `below` rows under the last one, likewise. */
-static void put_row_below(const pel_filter *f, int32_t below)
+/* The row `below` rows under the last one, likewise; all rows have been pushed. */
+static void put_row_below(const pel_filter *f, unsigned below)
 {
-    uint8_t *const row = row_slot(f, f->config.height - 1 + below);
+    uint8_t *const row = slot_at(f, slot_after(f, below - 1));
 
     if (f->config.border == PEL_BORDER_WRAP) {
-        const size_t kept = 2u * f->radius + 1u + (size_t)((below - 1) % f->config.height);
+        const size_t kept = 2u * f->radius + 1u + (below - 1) % f->config.height;
         put_row(f, slot_at(f, kept), row);
     } else if (f->config.border == PEL_BORDER_CONSTANT) {
         fill(row - f->radius, f->config.constant, slot_bytes(f));
     }
 }
 
-/* The rows around row y of the picture, at the first pixel that has a result. */
-static void window_at(const pel_filter *f, int32_t y, const uint8_t *rows[5])
+/* The rows around row y of the picture, at the first pixel that has a result: the last one that was
+ * pushed and those before it; where the picture ends, `below` more of those under it. Rows outside
+ * that are copies are elsewhere. */
+static void window_at(const pel_filter *f, int32_t y, unsigned below, const uint8_t *rows[5])
 {
     const int32_t r = f->radius;
     const int32_t x = f->config.border == PEL_BORDER_VALID ? r : 0;
+    unsigned slot = slot_after(f, below);
 
-    for (int32_t j = -r; j <= r; j++) {
-        const int32_t copy = f->config.border == PEL_BORDER_WRAP
-                                 ? -1
-                                 : pel_border_index(y + j, f->config.height, f->config.border);
-        rows[j + r] = row_slot(f, copy < 0 ? y + j : copy) + x;
+    for (int32_t j = y - r; j <= y + r; j++) {
+        *rows++ = slot_at(f, slot) + x;
+        slot = slot < 2u * f->radius ? slot + 1 : 0;
+        if ((uint32_t)j >= f->config.height && f->config.border != PEL_BORDER_WRAP) {
+            const int32_t copy = pel_border_index(j, f->config.height, f->config.border);
+            if (copy >= 0) {
+                rows[-1] = slot_at(f, (size_t)(copy % (2 * r + 1))) + x;
+            }
+        }
     }
 }
 
@@ -200,8 +213,6 @@ static pel_status check_filter(const pel_filter_config *c, unsigned radius)
     return c->work_bytes < pel_filter_bytes(c->width, radius, c->border) ? PEL_ERR_SPACE : PEL_OK;
 }
 
-enum { STATE_IDLE, STATE_ROWS };
-
 pel_status pel_filter_begin(pel_filter *f, const pel_filter_config *config)
 {
     const unsigned radius = f && config ? pel_i_filter_radius(config) : 0;
@@ -215,25 +226,22 @@ pel_status pel_filter_begin(pel_filter *f, const pel_filter_config *config)
     f->radius = (uint8_t)radius;
     f->pushed = 0;
     f->row = 0;
-    f->state = STATE_ROWS;
+    f->slot = 0;
+    find_sides(f);
     put_rows_above(f);
     return PEL_OK;
 }
 
 /* ---- Push and pull ------------------------------------------------------------------------- */
 
-/* The row of the picture that the next row of the result lies on. */
-static int32_t next_centre(const pel_filter *f)
-{
-    return f->config.border == PEL_BORDER_VALID ? f->row + f->radius : f->row;
-}
-
+/* A row of the result waits for the r rows below it, as long as there are some to come. A filter
+ * of zeros, which has not begun, is never ready. */
 static int is_ready(const pel_filter *f)
 {
-    const int32_t last = f->config.height - 1, needed = next_centre(f) + f->radius;
-
-    return f->row < less_border(f->config.height, &f->config, f->radius) &&
-           f->pushed > (needed < last ? needed : last);
+    const unsigned ahead = f->config.border == PEL_BORDER_VALID ? 2u * f->radius
+                           : f->pushed < f->config.height       ? f->radius
+                                                                : 0;
+    return f->row + ahead < f->pushed;
 }
 
 pel_status pel_filter_push(pel_filter *f, const uint8_t *row)
@@ -241,30 +249,29 @@ pel_status pel_filter_push(pel_filter *f, const uint8_t *row)
     if (!f || !row) {
         return PEL_ERR_ARG;
     }
-    if (f->state != STATE_ROWS || f->pushed >= f->config.height || is_ready(f)) {
+    if (f->pushed >= f->config.height || is_ready(f)) {
         return PEL_ERR_ORDER;
     }
-    put_row(f, row, row_slot(f, f->pushed));
+    put_row(f, row, slot_at(f, f->slot));
     if (f->config.border == PEL_BORDER_WRAP && f->pushed < f->radius) {
         put_row(f, row, slot_at(f, 2u * f->radius + 1u + f->pushed));
     }
+    f->slot = (uint8_t)slot_after(f, 1);
     f->pushed++;
     return PEL_OK;
 }
 
-/* The rows around the first pixel of the next result; how many results there are, 0 if it is not
- * their turn. */
+/* The rows around the first pixel of the next result, whose turn it is; how many results there
+ * are. */
 static uint16_t next_window(pel_filter *f, const uint8_t *rows[5])
 {
-    const int32_t centre = next_centre(f);
+    const unsigned centre = f->row + (f->config.border == PEL_BORDER_VALID ? f->radius : 0u);
+    const unsigned below = centre + f->radius + 1 - f->pushed;
 
-    if (f->state != STATE_ROWS || !is_ready(f)) {
-        return 0;
+    for (unsigned i = 1; i <= below; i++) {
+        put_row_below(f, i);
     }
-    for (int32_t below = 1; below <= centre + f->radius - (f->config.height - 1); below++) {
-        put_row_below(f, below);
-    }
-    window_at(f, centre, rows);
+    window_at(f, (int32_t)centre, below, rows);
     f->row++;
     return less_border(f->config.width, &f->config, f->radius);
 }
@@ -300,10 +307,10 @@ pel_status pel_filter_pull(pel_filter *f, uint8_t *out)
     if (f->config.op_s16 && !f->config.op) {
         return PEL_ERR_FORMAT;
     }
-    count = next_window(f, rows);
-    if (count == 0) {
+    if (!is_ready(f)) {
         return PEL_ERR_ORDER;
     }
+    count = next_window(f, rows);
     if (f->config.op) {
         (void)f->config.op(rows, count, &f->config, out);
         return PEL_OK;
@@ -329,10 +336,10 @@ pel_status pel_filter_pull_s16(pel_filter *f, int16_t *out)
     if (f->config.op && !f->config.op_s16) {
         return PEL_ERR_FORMAT;
     }
-    count = next_window(f, rows);
-    if (count == 0) {
+    if (!is_ready(f)) {
         return PEL_ERR_ORDER;
     }
+    count = next_window(f, rows);
     if (f->config.op_s16) {
         (void)f->config.op_s16(rows, count, &f->config, out);
         return PEL_OK;

@@ -189,7 +189,8 @@ typedef struct pel_filter {
     uint16_t pushed;
     uint16_t row; /* how many rows have been pulled */
     uint8_t radius;
-    uint8_t state;
+    uint8_t slot;
+    int16_t left[2], right[2];
 } pel_filter;
 
 /* The size of the result: that of the picture, or 2r less each way for VALID. */
