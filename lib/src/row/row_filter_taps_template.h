@@ -118,11 +118,13 @@ INLINE void narrow_kernel3(const uint8_t *const rows[], const int8_t *t,
     const pel_row_narrow copy = *narrow; /* that out cannot alias */
     const narrow_scale scale = narrow_scale_of(narrow);
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        const parities sums = sum_of_parities(
-            ready(sum_of_parities(row_sum3(a + x, &upper), row_sum3(b + x, &middle))),
-            row_sum3(c + x, &lower));
-        store_parities(out, x, bytes, narrow_results(sums, &copy, &scale));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        for (; x < end; x += LANES) {
+            const parities sums = sum_of_parities(
+                ready(sum_of_parities(row_sum3(a + x, &upper), row_sum3(b + x, &middle))),
+                row_sum3(c + x, &lower));
+            store_parities(out, x, bytes, narrow_results(sums, &copy, &scale));
+        }
     }
 }
 
@@ -137,12 +139,14 @@ INLINE void narrow_kernel5(const uint8_t *const rows[], const int8_t *t,
     for (int r = 0; r < 5; r++, t += 5) {
         taps[r] = taps5_of(t[0], t[1], t[2], t[3], t[4]);
     }
-    for (int x = 0; x < count; x = behind(x, count)) {
-        parities sums = row_sum5(row[0] + x, &taps[0]);
-        for (int r = 1; r < 5; r++) {
-            sums = ready(sum_of_parities(sums, row_sum5(row[r] + x, &taps[r])));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        for (; x < end; x += LANES) {
+            parities sums = row_sum5(row[0] + x, &taps[0]);
+            for (int r = 1; r < 5; r++) {
+                sums = ready(sum_of_parities(sums, row_sum5(row[r] + x, &taps[r])));
+            }
+            store_parities(out, x, bytes, narrow_results(sums, &copy, &scale));
         }
-        store_parities(out, x, bytes, narrow_results(sums, &copy, &scale));
     }
 }
 
@@ -205,15 +209,17 @@ INLINE void wide_kernel(const uint8_t *const rows[], int radius, const int8_t *t
     for (int r = 0; r <= 2 * radius; r++) {
         row[r] = rows[r];
     }
-    for (int x = 0; x < count; x = behind(x, count)) {
-        const quads sums = wide_sums(row, x, radius, tap);
-        const words results = {
-            V(packs_epi32)(wide_result(sums.first, &copy), wide_result(sums.second, &copy)),
-            V(packs_epi32)(wide_result(sums.third, &copy), wide_result(sums.fourth, &copy))};
-        if (bytes) {
-            store((uint8_t *)out + x, V(packus_epi16)(results.low, results.high));
-        } else {
-            store_words((int16_t *)out + x, results);
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        for (; x < end; x += LANES) {
+            const quads sums = wide_sums(row, x, radius, tap);
+            const words results = {
+                V(packs_epi32)(wide_result(sums.first, &copy), wide_result(sums.second, &copy)),
+                V(packs_epi32)(wide_result(sums.third, &copy), wide_result(sums.fourth, &copy))};
+            if (bytes) {
+                store((uint8_t *)out + x, V(packus_epi16)(results.low, results.high));
+            } else {
+                store_words((int16_t *)out + x, results);
+            }
         }
     }
 }

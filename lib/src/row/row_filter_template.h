@@ -22,11 +22,21 @@ INLINE void store(uint8_t *bytes, vec value)
     BITS(storeu)((loose_vec *)(void *)bytes, value);
 }
 
-/* Where the vector behind the one at x begins; count if there is none. */
-INLINE int behind(int x, int count)
+/*
+ * A row is done in two parts, each with a beginning of its own: the vectors that lie side by side,
+ * from 0 to whole(count), and, if they do not end with the row, one that does:
+ *
+ *     for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count))
+ *         for (; x < end; x += LANES)
+ */
+INLINE int whole(int count)
 {
-    x += LANES;
-    return x >= count || x + LANES <= count ? x : count - LANES;
+    return count - count % LANES;
+}
+
+INLINE int behind(int end, int count)
+{
+    return end == count ? 0 : count;
 }
 
 /* Taps for two neighbouring bytes. */
@@ -122,15 +132,13 @@ INLINE vec gauss_of(columns3 last, columns3 here)
 ISA void KERNEL(gauss3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    columns3 last = gauss_columns(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0, next; x < count; x = next) {
-        const columns3 here = gauss_columns(load(a + x + 1), load(b + x + 1), load(c + x + 1));
-        store(out + x, gauss_of(last, here));
-        next = behind(x, count);
-        last = here;
-        if (next != x + LANES) {
-            last = gauss_columns(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        columns3 last = gauss_columns(two_at(a + x - 1), two_at(b + x - 1), two_at(c + x - 1));
+        for (; x < end; x += LANES) {
+            const columns3 here = gauss_columns(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+            store(out + x, gauss_of(last, here));
+            last = here;
         }
     }
 }
@@ -153,15 +161,13 @@ INLINE vec box_of(columns3 last, columns3 here)
 ISA void KERNEL(box3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    columns3 last = box_columns(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0, next; x < count; x = next) {
-        const columns3 here = box_columns(load(a + x + 1), load(b + x + 1), load(c + x + 1));
-        store(out + x, box_of(last, here));
-        next = behind(x, count);
-        last = here;
-        if (next != x + LANES) {
-            last = box_columns(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        columns3 last = box_columns(two_at(a + x - 1), two_at(b + x - 1), two_at(c + x - 1));
+        for (; x < end; x += LANES) {
+            const columns3 here = box_columns(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+            store(out + x, box_of(last, here));
+            last = here;
         }
     }
 }
@@ -208,20 +214,18 @@ ISA void KERNEL(binomial5)(const uint8_t *const rows[], uint16_t count, uint8_t 
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2], *const d = rows[3],
                          *const e = rows[4];
-    parities last = binomial_columns(four_at(a - 2), four_at(b - 2), four_at(c - 2), four_at(d - 2),
-                                     four_at(e - 2));
 
-    for (int x = 0, next; x < count; x = next) {
-        const int right = x + 2;
-        const parities here = binomial_columns(load(a + right), load(b + right), load(c + right),
-                                               load(d + right), load(e + right));
-        store(out + x, binomials_of(last, here));
-        next = behind(x, count);
-        last = here;
-        if (next != x + LANES) {
-            const int left = next - 2;
-            last = binomial_columns(four_at(a + left), four_at(b + left), four_at(c + left),
-                                    four_at(d + left), four_at(e + left));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        const int left = x - 2;
+        parities last = binomial_columns(four_at(a + left), four_at(b + left), four_at(c + left),
+                                         four_at(d + left), four_at(e + left));
+        for (; x < end; x += LANES) {
+            const int right = x + 2;
+            const parities here =
+                binomial_columns(load(a + right), load(b + right), load(c + right), load(d + right),
+                                 load(e + right));
+            store(out + x, binomials_of(last, here));
+            last = here;
         }
     }
 }
@@ -229,11 +233,10 @@ ISA void KERNEL(binomial5)(const uint8_t *const rows[], uint16_t count, uint8_t 
 /* ---- Gradients ----------------------------------------------------------------------------- */
 
 /*
- * With the pixels as a sees them: . a .   differences d1 = right - left, d2 = below - above,
- *                                 . . .   and those across, d3 = lower right - upper left, d4 =
- *                                 . . .   upper right - lower left,
- * gx + gy = 2 (d1 + d2 + d3), gx - gy = 2 (d1 - d2 + d4). And |gx| + |gy| is the larger one of
- * |gx + gy| and |gx - gy|, gx^2 + gy^2 half the sum of their squares.
+ * Sobel's gradients by four differences: d1 = right - left, d2 = below - above, d3 = lower right -
+ * upper left, d4 = upper right - lower left. gx + gy = 2 (d1 + d2 + d3), gx - gy = 2 (d1 - d2 +
+ * d4). And |gx| + |gy| is the larger one of |gx + gy| and |gx - gy|, gx^2 + gy^2 half the sum of
+ * their squares.
  */
 typedef struct diagonals {
     words sum, difference; /* of gx and gy: half of them if `one` is 1, all if it is 2 */
@@ -292,11 +295,13 @@ ISA void KERNEL(sobel_x)(const uint8_t *const rows[], uint16_t count, int16_t *o
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
     const vec outer = taps_of(-1, 1), inner = taps_of(-2, 2);
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        const words upper = weighted(load(a + x - 1), load(a + x + 1), outer);
-        const words middle = weighted(load(b + x - 1), load(b + x + 1), inner);
-        const words lower = weighted(load(c + x - 1), load(c + x + 1), outer);
-        store_words(out + x, sum_of(sum_of(upper, middle), lower));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        for (; x < end; x += LANES) {
+            const words upper = weighted(load(a + x - 1), load(a + x + 1), outer);
+            const words middle = weighted(load(b + x - 1), load(b + x + 1), inner);
+            const words lower = weighted(load(c + x - 1), load(c + x + 1), outer);
+            store_words(out + x, sum_of(sum_of(upper, middle), lower));
+        }
     }
 }
 
@@ -305,11 +310,13 @@ ISA void KERNEL(sobel_y)(const uint8_t *const rows[], uint16_t count, int16_t *o
     const uint8_t *const a = rows[0], *const c = rows[2];
     const vec outer = taps_of(-1, 1), inner = taps_of(-2, 2);
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        const words left = weighted(load(a + x - 1), load(c + x - 1), outer);
-        const words middle = weighted(load(a + x), load(c + x), inner);
-        const words right = weighted(load(a + x + 1), load(c + x + 1), outer);
-        store_words(out + x, sum_of(sum_of(left, middle), right));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        for (; x < end; x += LANES) {
+            const words left = weighted(load(a + x - 1), load(c + x - 1), outer);
+            const words middle = weighted(load(a + x), load(c + x), inner);
+            const words right = weighted(load(a + x + 1), load(c + x + 1), outer);
+            store_words(out + x, sum_of(sum_of(left, middle), right));
+        }
     }
 }
 
@@ -317,9 +324,11 @@ ISA void KERNEL(gradient_abs)(const uint8_t *const rows[], uint16_t count, uint8
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        const words sums = absolute_sum_at(a + x, b + x, c + x);
-        store(out + x, V(packus_epi16)(sums.low, sums.high));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        for (; x < end; x += LANES) {
+            const words sums = absolute_sum_at(a + x, b + x, c + x);
+            store(out + x, V(packus_epi16)(sums.low, sums.high));
+        }
     }
 }
 
@@ -327,8 +336,10 @@ ISA void KERNEL(gradient_abs_s16)(const uint8_t *const rows[], uint16_t count, i
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        store_words(out + x, absolute_sum_at(a + x, b + x, c + x));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        for (; x < end; x += LANES) {
+            store_words(out + x, absolute_sum_at(a + x, b + x, c + x));
+        }
     }
 }
 
@@ -336,9 +347,11 @@ ISA void KERNEL(gradient)(const uint8_t *const rows[], uint16_t count, uint8_t *
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        const words lengths = length_at(a + x, b + x, c + x);
-        store(out + x, V(packus_epi16)(lengths.low, lengths.high));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        for (; x < end; x += LANES) {
+            const words lengths = length_at(a + x, b + x, c + x);
+            store(out + x, V(packus_epi16)(lengths.low, lengths.high));
+        }
     }
 }
 
@@ -346,8 +359,10 @@ ISA void KERNEL(gradient_s16)(const uint8_t *const rows[], uint16_t count, int16
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
 
-    for (int x = 0; x < count; x = behind(x, count)) {
-        store_words(out + x, length_at(a + x, b + x, c + x));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        for (; x < end; x += LANES) {
+            store_words(out + x, length_at(a + x, b + x, c + x));
+        }
     }
 }
 
@@ -405,15 +420,13 @@ INLINE vec median_of(sorted_columns last, sorted_columns here)
 ISA void KERNEL(median3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    sorted_columns last = sorted(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0, next; x < count; x = next) {
-        const sorted_columns here = sorted(load(a + x + 1), load(b + x + 1), load(c + x + 1));
-        store(out + x, median_of(last, here));
-        next = behind(x, count);
-        last = here;
-        if (next != x + LANES) {
-            last = sorted(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        sorted_columns last = sorted(two_at(a + x - 1), two_at(b + x - 1), two_at(c + x - 1));
+        for (; x < end; x += LANES) {
+            const sorted_columns here = sorted(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+            store(out + x, median_of(last, here));
+            last = here;
         }
     }
 }
@@ -432,15 +445,13 @@ INLINE vec largest_of(vec last, vec here)
 ISA void KERNEL(min3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    vec last = smallest(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0, next; x < count; x = next) {
-        const vec here = smallest(load(a + x + 1), load(b + x + 1), load(c + x + 1));
-        store(out + x, smallest_of(last, here));
-        next = behind(x, count);
-        last = here;
-        if (next != x + LANES) {
-            last = smallest(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        vec last = smallest(two_at(a + x - 1), two_at(b + x - 1), two_at(c + x - 1));
+        for (; x < end; x += LANES) {
+            const vec here = smallest(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+            store(out + x, smallest_of(last, here));
+            last = here;
         }
     }
 }
@@ -448,15 +459,13 @@ ISA void KERNEL(min3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 ISA void KERNEL(max3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    vec last = largest(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0, next; x < count; x = next) {
-        const vec here = largest(load(a + x + 1), load(b + x + 1), load(c + x + 1));
-        store(out + x, largest_of(last, here));
-        next = behind(x, count);
-        last = here;
-        if (next != x + LANES) {
-            last = largest(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        vec last = largest(two_at(a + x - 1), two_at(b + x - 1), two_at(c + x - 1));
+        for (; x < end; x += LANES) {
+            const vec here = largest(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+            store(out + x, largest_of(last, here));
+            last = here;
         }
     }
 }
@@ -477,17 +486,15 @@ INLINE extremes extremes_of(vec a, vec b, vec c)
 ISA void KERNEL(erode_labels3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    extremes last = extremes_of(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0, next; x < count; x = next) {
-        const extremes here = extremes_of(load(a + x + 1), load(b + x + 1), load(c + x + 1));
-        const vec low = smallest_of(last.low, here.low);
-        const vec high = largest_of(last.high, here.high);
-        store(out + x, BITS(and)(low, V(cmpeq_epi8)(low, high)));
-        next = behind(x, count);
-        last = here;
-        if (next != x + LANES) {
-            last = extremes_of(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        extremes last = extremes_of(two_at(a + x - 1), two_at(b + x - 1), two_at(c + x - 1));
+        for (; x < end; x += LANES) {
+            const extremes here = extremes_of(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+            const vec low = smallest_of(last.low, here.low);
+            const vec high = largest_of(last.high, here.high);
+            store(out + x, BITS(and)(low, V(cmpeq_epi8)(low, high)));
+            last = here;
         }
     }
 }
@@ -509,15 +516,13 @@ INLINE vec dilated(vec own, vec found)
 ISA void KERNEL(dilate_labels3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    vec last = label_columns(two_at(a - 1), two_at(b - 1), two_at(c - 1));
 
-    for (int x = 0, next; x < count; x = next) {
-        const vec here = label_columns(load(a + x + 1), load(b + x + 1), load(c + x + 1));
-        store(out + x, dilated(load(b + x), smallest_of(last, here)));
-        next = behind(x, count);
-        last = here;
-        if (next != x + LANES) {
-            last = label_columns(two_at(a + next - 1), two_at(b + next - 1), two_at(c + next - 1));
+    for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
+        vec last = label_columns(two_at(a + x - 1), two_at(b + x - 1), two_at(c + x - 1));
+        for (; x < end; x += LANES) {
+            const vec here = label_columns(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+            store(out + x, dilated(load(b + x), smallest_of(last, here)));
+            last = here;
         }
     }
 }
