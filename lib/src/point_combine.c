@@ -3,37 +3,37 @@
 
 #include "frames.h"
 #include "point_wide.h"
-#include "row/row_point.h"
+#include "row/row_point_select.h"
 
 /* ---- Two rows ------------------------------------------------------------------------------ */
 
-static void combine(pel_combine_op op, const uint8_t *a, const uint8_t *b, uint16_t count,
-                    uint8_t *dst)
+static void combine(pel_backend backend, pel_combine_op op, const uint8_t *a, const uint8_t *b,
+                    uint16_t count, uint8_t *dst)
 {
     switch (op) {
     case PEL_COMBINE_ADD:
-        pel_row_add(a, b, count, dst);
+        pel_i_row_add(backend, a, b, count, dst);
         break;
     case PEL_COMBINE_SUBTRACT:
-        pel_row_subtract(a, b, count, dst);
+        pel_i_row_subtract(backend, a, b, count, dst);
         break;
     case PEL_COMBINE_ABSDIFF:
-        pel_row_absdiff(a, b, count, dst);
+        pel_i_row_absdiff(backend, a, b, count, dst);
         break;
     case PEL_COMBINE_MIN:
-        pel_row_min(a, b, count, dst);
+        pel_i_row_min(backend, a, b, count, dst);
         break;
     case PEL_COMBINE_MAX:
-        pel_row_max(a, b, count, dst);
+        pel_i_row_max(backend, a, b, count, dst);
         break;
     case PEL_COMBINE_AND:
-        pel_row_and(a, b, count, dst);
+        pel_i_row_and(backend, a, b, count, dst);
         break;
     case PEL_COMBINE_OR:
-        pel_row_or(a, b, count, dst);
+        pel_i_row_or(backend, a, b, count, dst);
         break;
     case PEL_COMBINE_XOR:
-        pel_row_xor(a, b, count, dst);
+        pel_i_row_xor(backend, a, b, count, dst);
         break;
     case PEL_COMBINE_OP_COUNT:
         break;
@@ -51,7 +51,7 @@ pel_status pel_combine_row(pel_combine_op op, const uint8_t *a, const uint8_t *b
     if (!is_op(op) || !a || !b || !dst) {
         return PEL_ERR_ARG;
     }
-    combine(op, a, b, count, dst);
+    combine(pel_i_row_backend(PEL_BACKEND_AUTO), op, a, b, count, dst);
     return PEL_OK;
 }
 
@@ -65,6 +65,7 @@ pel_status pel_combine_frame(pel_combine_op op, const pel_cview *a, const pel_cv
                              const pel_view *dst)
 {
     const pel_status status = is_op(op) ? check_three(a, b, dst) : PEL_ERR_ARG;
+    const pel_backend backend = pel_i_row_backend(PEL_BACKEND_AUTO);
     uint16_t count;
 
     if (status != PEL_OK) {
@@ -72,7 +73,7 @@ pel_status pel_combine_frame(pel_combine_op op, const pel_cview *a, const pel_cv
     }
     count = (uint16_t)pel_row_bytes(dst->format, dst->width);
     for (uint16_t y = 0; y < dst->height; y++) {
-        combine(op, pel_i_row(a, y), pel_i_row(b, y), count, pel_i_row_to_write(dst, y));
+        combine(backend, op, pel_i_row(a, y), pel_i_row(b, y), count, pel_i_row_to_write(dst, y));
     }
     return PEL_OK;
 }
@@ -83,7 +84,7 @@ pel_status pel_blend_row(uint16_t alpha_q8, const uint8_t *a, const uint8_t *b, 
     if (alpha_q8 > 256 || !a || !b || !dst) {
         return PEL_ERR_ARG;
     }
-    pel_row_blend(a, b, alpha_q8, count, dst);
+    pel_i_row_blend(pel_i_row_backend(PEL_BACKEND_AUTO), a, b, alpha_q8, count, dst);
     return PEL_OK;
 }
 
@@ -91,6 +92,7 @@ pel_status pel_blend_frame(uint16_t alpha_q8, const pel_cview *a, const pel_cvie
                            const pel_view *dst)
 {
     const pel_status status = alpha_q8 <= 256 ? check_three(a, b, dst) : PEL_ERR_ARG;
+    const pel_backend backend = pel_i_row_backend(PEL_BACKEND_AUTO);
     uint16_t count;
 
     if (status != PEL_OK) {
@@ -98,8 +100,8 @@ pel_status pel_blend_frame(uint16_t alpha_q8, const pel_cview *a, const pel_cvie
     }
     count = (uint16_t)pel_row_bytes(dst->format, dst->width);
     for (uint16_t y = 0; y < dst->height; y++) {
-        pel_row_blend(pel_i_row(a, y), pel_i_row(b, y), alpha_q8, count,
-                      pel_i_row_to_write(dst, y));
+        pel_i_row_blend(backend, pel_i_row(a, y), pel_i_row(b, y), alpha_q8, count,
+                        pel_i_row_to_write(dst, y));
     }
     return PEL_OK;
 }

@@ -14,7 +14,8 @@
 
 enum { OFFSETS = 32, WIDTHS = 3 * 64 + 4, CANARY = 0xA5, CANARIES = 64, LONG_ROWS = 200 };
 
-static const equal_kernel *const tables[] = {equal_color_kernels, equal_filter_kernels};
+static const equal_kernel *const tables[] = {equal_color_kernels, equal_filter_kernels,
+                                             equal_point_kernels};
 static unsigned long passed, failed;
 
 uint32_t equal_random(uint32_t *state)

@@ -30,7 +30,7 @@ typedef struct equal_kernel {
 } equal_kernel;
 
 /* The tables of the modules, ended by a kernel without name. */
-extern const equal_kernel equal_color_kernels[], equal_filter_kernels[];
+extern const equal_kernel equal_color_kernels[], equal_filter_kernels[], equal_point_kernels[];
 
 /* A random number; the state moves on. */
 uint32_t equal_random(uint32_t *state);
