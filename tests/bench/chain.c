@@ -10,7 +10,7 @@
  *
  * LEVEL is `basic` (area, box, sums of x and y) or `all` (also second moments, perimeter, holes).
  */
-#include "inputs.h"
+#include "benchinput.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
  *     bench_inputs NAME WIDTHxHEIGHT
  *     bench_inputs NAME boxes
  */
-#include "inputs.h"
+#include "benchinput.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -60,11 +60,12 @@ def make_inputs(report, out):
                         out / "count.so")
     report.check(made.returncode == 0, f"plugin.c: {made.stderr}")
     bench = firmware.ROOT / "tests/bench"
+    tools = firmware.ROOT / "tools"
     program = out / "inputs"
     made = firmware.run(compiler, "-std=c99", "-O1", f"-I{firmware.ROOT}/lib/include",
-                        f"-I{firmware.ROOT}/lib/src", bench / "inputs_main.c", bench / "inputs.c",
-                        *firmware.library_sources(), "-o", program)
-    report.check(made.returncode == 0, f"tests/bench/inputs.c: {made.stderr}")
+                        f"-I{firmware.ROOT}/lib/src", f"-I{tools}", bench / "inputs_main.c",
+                        tools / "benchinput.c", *firmware.library_sources(), "-o", program)
+    report.check(made.returncode == 0, f"tools/benchinput.c: {made.stderr}")
     there = []
     for name in PICTURES + PHOTOGRAPHS:
         picture = out / f"{name}.yuyv"

@@ -1,4 +1,4 @@
-#include "inputs.h"
+#include "benchinput.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -207,6 +207,11 @@ static int read_photo(const char *name, size_t bytes, uint8_t *frame)
     return is_whole ? 0 : -1;
 }
 
+int bench_is_made(const char *name)
+{
+    return strcmp(name, "synth") == 0 || strcmp(name, "rand4") == 0 || strcmp(name, "rand1") == 0;
+}
+
 int bench_frame(const char *name, int width, int height, uint8_t *frame)
 {
     if (strcmp(name, "synth") == 0) {
@@ -230,19 +235,29 @@ static pel_color_box synth_box(const uint8_t centre[3])
     return box;
 }
 
+unsigned bench_box_list(const char *name, pel_color_box box[BENCH_BOXES_MAX])
+{
+    enum { PHOTO_BOXES = sizeof photo_box / sizeof photo_box[0] };
+    if (strcmp(name, "synth") == 0) {
+        for (unsigned c = 0; c < BENCH_BOXES_MAX; c++) {
+            box[c] = synth_box(synth_centre[c]);
+        }
+        return BENCH_BOXES_MAX;
+    }
+    if (bench_is_made(name)) {
+        box[0] = rand_box;
+        return 1;
+    }
+    memcpy(box, photo_box, sizeof photo_box);
+    return PHOTO_BOXES;
+}
+
 void bench_boxes(const char *name, pel_boxes *boxes)
 {
+    pel_color_box box[BENCH_BOXES_MAX];
+    const unsigned count = bench_box_list(name, box);
     memset(boxes, 0, sizeof *boxes);
-    if (strcmp(name, "synth") == 0) {
-        for (unsigned c = 0; c < 8; c++) {
-            const pel_color_box box = synth_box(synth_centre[c]);
-            pel_boxes_set(boxes, c, &box);
-        }
-    } else if (strncmp(name, "rand", 4) == 0) {
-        pel_boxes_set(boxes, 0, &rand_box);
-    } else {
-        for (unsigned c = 0; c < 6; c++) {
-            pel_boxes_set(boxes, c, &photo_box[c]);
-        }
+    for (unsigned c = 0; c < count; c++) {
+        pel_boxes_set(boxes, c, &box[c]);
     }
 }
