@@ -14,6 +14,6 @@ typedef struct command {
 
 extern const command cmd_blobs, cmd_classify, cmd_runs, cmd_convert, cmd_scene, cmd_budget,
     cmd_classes, cmd_filter, cmd_point, cmd_corners, cmd_edges, cmd_histogram, cmd_line, cmd_sheet,
-    cmd_listen, cmd_formatcheck, cmd_capture, cmd_cameras;
+    cmd_listen, cmd_formatcheck, cmd_capture, cmd_cameras, cmd_bench;
 
 #endif

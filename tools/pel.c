@@ -12,9 +12,10 @@
 #include "say.h"
 
 static const command *const commands[] = {
-    &cmd_blobs,   &cmd_classify, &cmd_runs,   &cmd_convert,     &cmd_scene,   &cmd_budget,
-    &cmd_classes, &cmd_filter,   &cmd_point,  &cmd_corners,     &cmd_edges,   &cmd_histogram,
-    &cmd_line,    &cmd_sheet,    &cmd_listen, &cmd_formatcheck, &cmd_capture, &cmd_cameras};
+    &cmd_blobs,       &cmd_classify,  &cmd_runs,    &cmd_convert, &cmd_scene,
+    &cmd_budget,      &cmd_classes,   &cmd_filter,  &cmd_point,   &cmd_corners,
+    &cmd_edges,       &cmd_histogram, &cmd_line,    &cmd_sheet,   &cmd_listen,
+    &cmd_formatcheck, &cmd_capture,   &cmd_cameras, &cmd_bench};
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 

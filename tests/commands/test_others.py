@@ -10,7 +10,7 @@ from peltest import (DEMO, SOURCE, classify, collect, equal, main, ok, paint, pa
 
 COMMANDS = ["blobs", "classify", "runs", "convert", "scene", "budget", "classes", "filter",
             "point", "corners", "edges", "histogram", "line", "sheet", "listen", "formatcheck",
-            "capture", "cameras"]
+            "capture", "cameras", "bench"]
 CLASSES = """[Colors]
 (255,128,  0) 0.0000 1 orange
 (  1,  2,  3) 0.0000 1 a,b

@@ -1,0 +1,21 @@
+/* Times: a pinned process, a clock, and what many times of one thing say. */
+#ifndef BENCHTIME_H
+#define BENCHTIME_H
+
+/* Keeps this process and those that it starts on the processor core that it is on now. The number
+ * of the core, or -1 where the system does not do that. */
+int benchtime_pin(void);
+
+/* Nanoseconds since some moment. */
+double benchtime_now_ns(void);
+
+/* A median and the quartiles beside it. */
+typedef struct bench_spread {
+    double low, median, high;
+} bench_spread;
+
+/* Of `count` values, 1 or more, which are sorted; each quartile is the mean of the two values
+ * around its place. Everything is divided by `unit`. */
+bench_spread benchtime_spread(double *values, unsigned count, double unit);
+
+#endif
