@@ -105,25 +105,31 @@ static double time_once(const series *of)
     return (benchtime_now_ns() - start) / of->repeat;
 }
 
+/* How often what takes so long once is to be repeated. */
+static unsigned repeat_of(double once_ns)
+{
+    if (once_ns >= ENOUGH_NS) {
+        return 1;
+    }
+    return once_ns * REPEAT_MAX > ENOUGH_NS ? (unsigned)(ENOUGH_NS / once_ns) + 1 : REPEAT_MAX;
+}
+
 /* Warms up, and finds out how often a run is to be repeated. */
 static void calibrate(series *of)
 {
     of->repeat = 1;
     time_once(of);
-    const double once = time_once(of);
-    if (once < ENOUGH_NS) {
-        of->repeat = once * REPEAT_MAX > ENOUGH_NS ? (unsigned)(ENOUGH_NS / once) + 1 : REPEAT_MAX;
-    }
+    of->repeat = repeat_of(time_once(of));
 }
 
-/* OpenCV's times: as often repeated as memcpy, or as it needs. 0, or -1 after a message. */
+/* The same for OpenCV's job. 0, or -1 after a message. */
 static int calibrate_peer(benchpeer *peer, unsigned *repeat)
 {
     double once[2];
     if (benchpeer_run(peer, 1, 2, once)) {
         return -1;
     }
-    *repeat = once[1] < ENOUGH_NS && once[1] > 0 ? (unsigned)(ENOUGH_NS / once[1]) + 1 : 1;
+    *repeat = repeat_of(once[1]);
     return 0;
 }
 

@@ -97,6 +97,7 @@ struct job {
     unsigned picture_count;
     benchpeer peer;
     bench_compared compared;
+    int core; /* on which all runs; -1: wherever the system wants */
     bench_figure *figures;
     unsigned figure_count;
     unsigned long steps, step; /* of the progress */
@@ -389,7 +390,12 @@ static void print_end(const struct job *job)
     if (job->csv) {
         return;
     }
-    printf("\n%lu results compared with plain C and equal; %lu compared with OpenCV%s%s%s\n",
+    if (job->core >= 0) {
+        printf("\nAll ran on processor core %d.\n", job->core);
+    } else {
+        puts("\nThis system does not keep a process on one core.");
+    }
+    printf("%lu results compared with plain C and equal; %lu compared with OpenCV%s%s%s\n",
            job->compared.backends, job->compared.opencv, job->peer.process ? " " : "",
            job->peer.process ? job->peer.version : "", job->peer.process ? ", and they fit" : "");
 }
@@ -539,7 +545,7 @@ static int run(int argc, char **argv)
     if (status >= 0) {
         return status;
     }
-    benchtime_pin();
+    job.core = benchtime_pin();
     int failed = load_pictures(&job, argc - optind, argv + optind) || start_opencv(&job);
     job.steps = 2ul * job.picture_count * job.op_count;
     failed = failed || compare_all(&job) || time_all(&job) || draw(&job);
