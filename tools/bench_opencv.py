@@ -286,7 +286,7 @@ def prepare(picture, name):
 
 
 def measure(run, repeat, count):
-    clock = time.perf_counter_ns
+    clock = time.process_time_ns  # with all of its threads, without other processes
     times = []
     for _ in range(count):
         start = clock()

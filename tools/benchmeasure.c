@@ -6,7 +6,7 @@
 #include "say.h"
 
 enum { ROUNDS = 10, SERIES_MAX = PEL_BACKEND_COUNT + 2, REPEAT_MAX = 10000 };
-static const double ENOUGH_NS = 20000;
+static const double ENOUGH_NS = 50000;
 
 bench_backends benchmeasure_backends(const bench_op *op, const bench_backends *all)
 {

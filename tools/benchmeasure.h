@@ -40,7 +40,7 @@ typedef struct bench_figure {
 /*
  * Times the operator with each backend, into figures[0 .. backends->count - 1]. All take turns in
  * ten rounds, so that what happens to the machine meanwhile happens to all of them: memcpy, each
- * backend, OpenCV. What is over in less than 20 microseconds is repeated so often that it takes
+ * backend, OpenCV. What is over in less than 50 microseconds is repeated so often that it takes
  * that long. 0, or -1 after a message.
  */
 int benchmeasure_time(const bench_op *op, const bench_picture *picture,

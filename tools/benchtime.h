@@ -1,4 +1,11 @@
-/* Times: a pinned process, a clock, and what many times of one thing say. */
+/*
+ * Times: a pinned process, a clock, and what many times of one thing say.
+ *
+ * The clock is that of the processor time of this process, all of its threads together. On a machine
+ * that has nothing else to do it goes like any other; on a busy one it stands still while others
+ * run, which otherwise would make long jobs look slower than short ones, as those are seldom
+ * interrupted.
+ */
 #ifndef BENCHTIME_H
 #define BENCHTIME_H
 
@@ -6,7 +13,7 @@
  * of the core, or -1 where the system does not do that. */
 int benchtime_pin(void);
 
-/* Nanoseconds since some moment. */
+/* Nanoseconds of processor time since some moment. */
 double benchtime_now_ns(void);
 
 /* A median and the quartiles beside it. */
