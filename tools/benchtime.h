@@ -1,9 +1,9 @@
 /*
  * Times: a pinned process, a clock, and what many times of one thing say.
  *
- * The clock is that of the processor time of this process, all of its threads together. On a machine
- * that has nothing else to do it goes like any other; on a busy one it stands still while others
- * run, which otherwise would make long jobs look slower than short ones, as those are seldom
+ * The clock is that of the processor time of this process, all of its threads together. On a
+ * machine that has nothing else to do it goes like any other; on a busy one it stands still while
+ * others run, which otherwise would make long jobs look slower than short ones, as those are seldom
  * interrupted.
  */
 #ifndef BENCHTIME_H

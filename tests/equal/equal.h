@@ -11,7 +11,7 @@ enum {
     EQUAL_PLANES = 5,      /* input rows at most */
     EQUAL_MARGIN = 8,      /* bytes that a kernel may read beside a row, as its neighbours */
     EQUAL_WIDTH_MAX = 640, /* pixels */
-    EQUAL_OUT_MAX = 4 * EQUAL_WIDTH_MAX + 64 /* bytes of result */
+    EQUAL_OUT_MAX = 5 * EQUAL_WIDTH_MAX + 64 /* bytes of result */
 };
 
 /* One run: rows of 4 bytes per pixel at most, all filled with the same kind of pattern. */

@@ -78,9 +78,32 @@ static size_t find_runs(pel_backend backend, const equal_run *run)
     return 4u * count;
 }
 
+/* The runs of a row of pixels, each with its label, in one step. */
+static size_t classify_runs(pel_backend backend, const equal_run *run)
+{
+    const pel_row_pairs pairs = {run->in[0], run->in[0] + 1, run->in[0] + 3, 2, 4};
+    uint8_t labels[EQUAL_WIDTH_MAX];
+    uint16_t edges[2 * (EQUAL_WIDTH_MAX + 1)];
+    pel_classify_plan plan;
+    pel_boxes boxes;
+    uint16_t count;
+
+    random_boxes(run->seed, &boxes);
+    (void)pel_classify_plan_make(&plan, &boxes, backend);
+    const pel_row_boxes tables = {boxes.y, boxes.u, boxes.v};
+    count = pel_i_row_classify_runs(plan.backend, plan.nibbles, &tables, &pairs, run->width, labels,
+                                    edges);
+    memcpy(run->out, edges, 4u * count);
+    for (unsigned i = 0; i < count; i++) {
+        run->out[4u * count + i] = labels[edges[2 * i]];
+    }
+    return 5u * count;
+}
+
 const equal_kernel equal_color_kernels[] = {{"classify packed 4:2:2", classify_packed, 1},
                                             {"classify NV12", classify_nv12, 1},
                                             {"classify I420", classify_i420, 1},
                                             {"classify gray", classify_gray, 0},
                                             {"find runs", find_runs, 0},
+                                            {"classify and find runs", classify_runs, 1},
                                             {NULL, NULL, 0}};

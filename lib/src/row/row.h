@@ -87,4 +87,10 @@ uint32_t pel_row_sum(const uint8_t *src, uint16_t count);
  * scratch. */
 uint16_t pel_row_find_runs(const uint8_t *labels, uint16_t count, uint16_t *edges);
 
+/* Both in one: the runs of a row of pairs under boxes. labels[x0] of every run is its label; the
+ * other labels are scratch, of which a version may write all, some or none. `edges` as above, with
+ * room for 2 * (count + 1). */
+uint16_t pel_row_classify_runs(const pel_row_boxes *boxes, const pel_row_pairs *src, uint16_t count,
+                               uint8_t *labels, uint16_t *edges);
+
 #endif

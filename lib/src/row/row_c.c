@@ -438,3 +438,10 @@ uint16_t pel_row_find_runs(const uint8_t *labels, uint16_t count, uint16_t *edge
     writer = next_label(writer, 0, count);
     return (uint16_t)((size_t)(writer.edge - edges) / 2);
 }
+
+uint16_t pel_row_classify_runs(const pel_row_boxes *boxes, const pel_row_pairs *src, uint16_t count,
+                               uint8_t *labels, uint16_t *edges)
+{
+    pel_row_classify_pairs(boxes, src, count, labels);
+    return pel_row_find_runs(labels, count, edges);
+}

@@ -2,9 +2,7 @@
 #ifndef PEL_ROW_SELECT_RUNS_H
 #define PEL_ROW_SELECT_RUNS_H
 
-#include "pel/backend.h"
-#include "row/row.h"
-#include "row/row_x86.h"
+#include "row/row_select.h"
 
 static inline uint16_t pel_i_row_find_runs(pel_backend backend, const uint8_t *labels,
                                            uint16_t count, uint16_t *edges)
@@ -17,6 +15,18 @@ static inline uint16_t pel_i_row_find_runs(pel_backend backend, const uint8_t *l
     default:
         return pel_row_find_runs(labels, count, edges);
     }
+}
+
+/* nibbles are those of the boxes; not looked at by SCALAR. */
+static inline uint16_t pel_i_row_classify_runs(pel_backend backend, const uint8_t *nibbles,
+                                               const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                               uint16_t count, uint8_t *labels, uint16_t *edges)
+{
+    if (backend == PEL_BACKEND_SCALAR) {
+        return pel_row_classify_runs(boxes, src, count, labels, edges);
+    }
+    pel_i_row_classify_pairs(backend, nibbles, boxes, src, count, labels);
+    return pel_i_row_find_runs(backend, labels, count, edges);
 }
 
 #endif
