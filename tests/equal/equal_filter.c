@@ -174,6 +174,33 @@ TAPS_WORDS(kernel3_s16, 1)
 TAPS_BYTES(kernel5, 2)
 TAPS_WORDS(kernel5_s16, 2)
 
+/* ---- Roots --------------------------------------------------------------------------------- */
+
+#if defined(PEL_ROW_FILTER_X86)
+#include <emmintrin.h>
+
+int equal_roots_hold(void)
+{
+    const int32_t most = 2 * 1020 * 1020; /* more than is reached */
+    int32_t root = 0;                     /* root^2 <= n < (root + 1)^2 */
+
+    for (int32_t n = 0; n <= most; n++) {
+        const __m128 found = _mm_sqrt_ps(_mm_cvtepi32_ps(_mm_set1_epi32(n)));
+        root += (root + 1) * (root + 1) == n;
+        if (_mm_cvtsi128_si32(_mm_cvttps_epi32(found)) != root) {
+            printf("wrong: the root of %ld\n", (long)n);
+            return 0;
+        }
+    }
+    return 1;
+}
+#else
+int equal_roots_hold(void)
+{
+    return 1;
+}
+#endif
+
 const equal_kernel equal_filter_kernels[] = {{"gauss3", gauss3, 0},
                                              {"box3", box3, 0},
                                              {"binomial5", binomial5, 0},

@@ -95,7 +95,8 @@ def compiled_rows(report, target, out, used):
     for stem in stems:
         text, data, bss = firmware.sizes(target, f"{stem}.o")
         report.check(data == bss == 0, f"{target.name}: {stem.name}: data {data}, bss {bss}")
-        rows.append(Row("flash", target.name, stem.name, text, "bytes", by))
+        if text > 0:  # the kernels for other processors are empty
+            rows.append(Row("flash", target.name, stem.name, text, "bytes", by))
     for name, size in stack.worst_stacks(report, target, stems, used).items():
         rows.append(Row("stack", target.name, name, size, "bytes", by))
     rows += ram_rows(report, target, out / target.name, by)

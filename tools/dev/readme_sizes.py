@@ -90,7 +90,7 @@ def flash_lines(figures):
     unlisted = files - {file for some in parts.values() for file in some}
     if unlisted:
         sys.exit(f"readme_sizes.py: no row of the table has {', '.join(sorted(unlisted))}")
-    rows = [[title] + [sum(flash[core][file] for file in some) for core, _ in CORES]
+    rows = [[title] + [sum(flash[core].get(file, 0) for file in some) for core, _ in CORES]
             for title, some in parts.items()]
     rows.append(["**everything**"] + [f"**{sum(flash[core].values())}**" for core, _ in CORES])
     rows.append(["deepest stack of a call"] + [max(figures.of("stack", core).values())
