@@ -9,6 +9,7 @@
 
 /* ---- Sums of 16 bits ----------------------------------------------------------------------- */
 
+#if !defined(OWN_PRODUCTS)
 /* A sum that is ready here: if the compiler put all sums off to the end, they would not fit into
  * the registers. */
 INLINE parities ready(parities sums)
@@ -62,9 +63,26 @@ INLINE parities row_sum5(const uint8_t *p, const taps5 *taps)
     return sums;
 }
 
+/* By how much all places are shifted. */
+typedef __m128i shift_count;
+
+INLINE shift_count shift_by(int bits)
+{
+    return _mm_cvtsi32_si128(bits);
+}
+
+/* Even and odd places limited to bytes, in their order. */
+INLINE vec bytes_of(parities results)
+{
+    const vec places =
+        everywhere(_mm_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15));
+    return V(shuffle_epi8)(V(packus_epi16)(results.even, results.odd), places);
+}
+#endif
+
 typedef struct narrow_scale {
     vec add, factor, subtract, bias;
-    __m128i shift;
+    shift_count shift;
 } narrow_scale;
 
 INLINE narrow_scale narrow_scale_of(const pel_row_narrow *narrow)
@@ -72,7 +90,7 @@ INLINE narrow_scale narrow_scale_of(const pel_row_narrow *narrow)
     const narrow_scale scale = {V(set1_epi16)((int16_t)narrow->add),
                                 V(set1_epi16)((int16_t)narrow->factor),
                                 V(set1_epi16)((int16_t)narrow->subtract),
-                                V(set1_epi16)(narrow->bias), _mm_cvtsi32_si128(narrow->shift)};
+                                V(set1_epi16)(narrow->bias), shift_by(narrow->shift)};
     return scale;
 }
 
@@ -89,11 +107,8 @@ INLINE vec narrow_result(vec sums, const pel_row_narrow *narrow, const narrow_sc
 /* Even and odd places as words in their order, or limited to bytes. */
 INLINE void store_parities(void *out, int x, int bytes, parities results)
 {
-    const vec places =
-        everywhere(_mm_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15));
     if (bytes) {
-        const vec limited = V(packus_epi16)(results.even, results.odd);
-        store((uint8_t *)out + x, V(shuffle_epi8)(limited, places));
+        store((uint8_t *)out + x, bytes_of(results));
     } else {
         const words ordered = {V(unpacklo_epi16)(results.even, results.odd),
                                V(unpackhi_epi16)(results.even, results.odd)};
@@ -152,6 +167,7 @@ INLINE void narrow_kernel5(const uint8_t *const rows[], const int8_t *t,
 
 /* ---- Sums of 32 bits ----------------------------------------------------------------------- */
 
+#if !defined(OWN_PRODUCTS)
 /* In the order that unpacking bytes twice gives. */
 typedef struct quads {
     vec first, second, third, fourth;
@@ -184,6 +200,7 @@ INLINE quads wide_sums(const uint8_t *const rows[], int x, int radius, const int
     }
     return sums;
 }
+#endif
 
 /* v / divisor in single precision, which holds v < 2^22 and the divisor exactly; the quotient is at
  * least 1 / v of itself away from the next whole number, and its error 2^-23 of itself. */
@@ -192,7 +209,7 @@ INLINE vec wide_result(vec sums, const pel_row_scale *scale)
     const vec start = V(set1_epi32)((int32_t)scale->start);
     vec v = V(add_epi32)(scale->flip != 0 ? V(abs_epi32)(sums) : sums, start);
     if (scale->divisor == 0) {
-        v = V(srl_epi32)(v, _mm_cvtsi32_si128(scale->shift));
+        v = V(srl_epi32)(v, shift_by(scale->shift));
     } else {
         const vec divisor = V(set1_epi32)((int32_t)scale->divisor);
         v = V(cvttps_epi32)(V(div_ps)(V(cvtepi32_ps)(v), V(cvtepi32_ps)(divisor)));

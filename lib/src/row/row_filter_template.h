@@ -7,6 +7,8 @@
  *     MOVED(last, here, n)     what lies n bytes before `here` if `last` lies before it
  *     words, store_words       results of 16 bits, as unpacking bytes leaves them
  *     ISA, INLINE, KERNEL      for what a function is compiled, what it is called
+ *     OWN_PRODUCTS             defined: the file brings what is made of products, because its
+ *                              instructions have others
  *
  * The last vector of a row ends where the row ends and so overlaps the one before it: the results
  * there are written twice. Nothing outside the neighbours of the row is read.
@@ -45,13 +47,16 @@ INLINE vec taps_of(int first, int second)
     return V(set1_epi16)((int16_t)((first & 255) | (second & 255) * 256));
 }
 
-/* p times the first tap plus q times the second. */
-INLINE words weighted(vec p, vec q, vec taps)
+#if !defined(OWN_PRODUCTS)
+/* n times what q is over p. */
+INLINE words rises(vec p, vec q, int n)
 {
-    const words sums = {V(maddubs_epi16)(V(unpacklo_epi8)(p, q), taps),
-                        V(maddubs_epi16)(V(unpackhi_epi8)(p, q), taps)};
-    return sums;
+    const vec taps = taps_of(-n, n);
+    const words products = {V(maddubs_epi16)(V(unpacklo_epi8)(p, q), taps),
+                            V(maddubs_epi16)(V(unpackhi_epi8)(p, q), taps)};
+    return products;
 }
+#endif
 
 INLINE words sum_of(words a, words b)
 {
@@ -244,11 +249,10 @@ typedef struct diagonals {
 
 INLINE diagonals diagonals_at(const uint8_t *a, const uint8_t *b, const uint8_t *c, int one)
 {
-    const vec taps = taps_of(-one, one);
-    const words d1 = weighted(load(b - 1), load(b + 1), taps);
-    const words d2 = weighted(load(a), load(c), taps);
-    const words d3 = weighted(load(a - 1), load(c + 1), taps);
-    const words d4 = weighted(load(c - 1), load(a + 1), taps);
+    const words d1 = rises(load(b - 1), load(b + 1), one);
+    const words d2 = rises(load(a), load(c), one);
+    const words d3 = rises(load(a - 1), load(c + 1), one);
+    const words d4 = rises(load(c - 1), load(a + 1), one);
     const diagonals d = {sum_of(sum_of(d1, d2), d3), sum_of(difference_of(d1, d2), d4)};
     return d;
 }
@@ -293,13 +297,12 @@ INLINE words length_at(const uint8_t *a, const uint8_t *b, const uint8_t *c)
 ISA void KERNEL(sobel_x)(const uint8_t *const rows[], uint16_t count, int16_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    const vec outer = taps_of(-1, 1), inner = taps_of(-2, 2);
 
     for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
         for (; x < end; x += LANES) {
-            const words upper = weighted(load(a + x - 1), load(a + x + 1), outer);
-            const words middle = weighted(load(b + x - 1), load(b + x + 1), inner);
-            const words lower = weighted(load(c + x - 1), load(c + x + 1), outer);
+            const words upper = rises(load(a + x - 1), load(a + x + 1), 1);
+            const words middle = rises(load(b + x - 1), load(b + x + 1), 2);
+            const words lower = rises(load(c + x - 1), load(c + x + 1), 1);
             store_words(out + x, sum_of(sum_of(upper, middle), lower));
         }
     }
@@ -308,13 +311,12 @@ ISA void KERNEL(sobel_x)(const uint8_t *const rows[], uint16_t count, int16_t *o
 ISA void KERNEL(sobel_y)(const uint8_t *const rows[], uint16_t count, int16_t *out)
 {
     const uint8_t *const a = rows[0], *const c = rows[2];
-    const vec outer = taps_of(-1, 1), inner = taps_of(-2, 2);
 
     for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
         for (; x < end; x += LANES) {
-            const words left = weighted(load(a + x - 1), load(c + x - 1), outer);
-            const words middle = weighted(load(a + x), load(c + x), inner);
-            const words right = weighted(load(a + x + 1), load(c + x + 1), outer);
+            const words left = rises(load(a + x - 1), load(c + x - 1), 1);
+            const words middle = rises(load(a + x), load(c + x), 2);
+            const words right = rises(load(a + x + 1), load(c + x + 1), 1);
             store_words(out + x, sum_of(sum_of(left, middle), right));
         }
     }
