@@ -44,6 +44,11 @@ need_machines() {
         need gcc-riscv64-unknown-elf has riscv64-unknown-elf-gcc
         need qemu-system-misc has qemu-system-riscv32
     fi
+    if [ "$1" = all ] || [ "$1" = aarch64-linux ]; then
+        need gcc-aarch64-linux-gnu has aarch64-linux-gnu-gcc
+        need libc6-dev-arm64-cross test -e /usr/aarch64-linux-gnu/include/stdio.h
+        need qemu-user has qemu-aarch64
+    fi
     if [ "$1" = all ] || [ "$1" = s390x-linux ]; then
         need gcc-s390x-linux-gnu has s390x-linux-gnu-gcc
         need libc6-dev-s390x-cross test -e /usr/s390x-linux-gnu/include/stdio.h
