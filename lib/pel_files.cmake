@@ -9,14 +9,17 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/overlap.c
     ${PEL_LIB_DIR}/src/row/row_c.c
     ${PEL_LIB_DIR}/src/row/row_avx2.c
+    ${PEL_LIB_DIR}/src/row/row_neon.c
     ${PEL_LIB_DIR}/src/row/row_filter_c.c
     ${PEL_LIB_DIR}/src/row/row_filter_dsp.c
     ${PEL_LIB_DIR}/src/row/row_filter_narrow.c
     ${PEL_LIB_DIR}/src/row/row_filter_ssse3.c
     ${PEL_LIB_DIR}/src/row/row_filter_avx2.c
+    ${PEL_LIB_DIR}/src/row/row_filter_neon.c
     ${PEL_LIB_DIR}/src/row/row_point_c.c
     ${PEL_LIB_DIR}/src/row/row_point_ssse3.c
     ${PEL_LIB_DIR}/src/row/row_point_avx2.c
+    ${PEL_LIB_DIR}/src/row/row_point_neon.c
     ${PEL_LIB_DIR}/src/row/row_feature_c.c
     ${PEL_LIB_DIR}/src/color.c
     ${PEL_LIB_DIR}/src/image.c

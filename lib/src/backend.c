@@ -35,6 +35,11 @@ int pel_backend_available(pel_backend backend)
     case PEL_BACKEND_AVX2:
         return has_avx2();
 #endif
+#if defined(__GNUC__) && defined(__aarch64__) && defined(__ARM_NEON) &&                            \
+    __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    case PEL_BACKEND_NEON:
+        return 1;
+#endif
     default:
         return 0;
     }

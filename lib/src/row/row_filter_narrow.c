@@ -1,8 +1,9 @@
 #include "row/row_filter_narrow.h"
 
 #include "row/row_filter_x86.h"
+#include "row/row_neon.h"
 
-#if defined(PEL_ROW_FILTER_X86)
+#if defined(PEL_ROW_FILTER_X86) || defined(PEL_ROW_NEON)
 
 /* Sums of pixels times taps: -255 * negative .. 255 * positive. */
 typedef struct reach {

@@ -4,9 +4,10 @@
 
 #include "row/row_filter_best.h"
 #include "row/row_filter_x86.h"
+#include "row/row_neon.h"
 #include "row/row_select.h"
 
-/* The versions of a kernel for x86; rows narrower than a vector are for the next smaller one. */
+/* The versions of a kernel in vectors; rows narrower than one are for the next smaller one. */
 #if defined(PEL_ROW_FILTER_X86) && !PEL_ROW_DSP
 #define PEL_ROW_TRY(name, arguments)                                                               \
     if (backend >= PEL_BACKEND_AVX2 && count >= PEL_ROW_LANES_AVX2) {                              \
@@ -15,6 +16,12 @@
     }                                                                                              \
     if (backend >= PEL_BACKEND_SSSE3 && count >= PEL_ROW_LANES_SSSE3) {                            \
         pel_row_##name##_ssse3 arguments;                                                          \
+        return;                                                                                    \
+    }
+#elif defined(PEL_ROW_NEON)
+#define PEL_ROW_TRY(name, arguments)                                                               \
+    if (backend == PEL_BACKEND_NEON && count >= PEL_ROW_LANES_NEON) {                              \
+        pel_row_##name##_neon arguments;                                                           \
         return;                                                                                    \
     }
 #else

@@ -2,10 +2,11 @@
 #ifndef PEL_ROW_POINT_SELECT_H
 #define PEL_ROW_POINT_SELECT_H
 
+#include "row/row_neon.h"
 #include "row/row_point_x86.h"
 #include "row/row_select.h"
 
-/* The versions of a kernel for x86; rows narrower than a vector are for the next smaller one. */
+/* The versions of a kernel in vectors; rows narrower than one are for the next smaller one. */
 #if defined(PEL_ROW_POINT_X86)
 #define PEL_ROW_TRY_POINT(name, arguments)                                                         \
     if (backend >= PEL_BACKEND_AVX2 && count >= PEL_ROW_POINT_AVX2) {                              \
@@ -14,6 +15,12 @@
     }                                                                                              \
     if (backend >= PEL_BACKEND_SSSE3 && count >= PEL_ROW_POINT_SSSE3) {                            \
         pel_row_##name##_ssse3 arguments;                                                          \
+        return;                                                                                    \
+    }
+#elif defined(PEL_ROW_NEON)
+#define PEL_ROW_TRY_POINT(name, arguments)                                                         \
+    if (backend == PEL_BACKEND_NEON && count >= PEL_ROW_LANES_NEON) {                              \
+        pel_row_##name##_neon arguments;                                                           \
         return;                                                                                    \
     }
 #else

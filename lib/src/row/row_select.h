@@ -7,6 +7,7 @@
 
 #include "pel/backend.h"
 #include "row/row.h"
+#include "row/row_neon.h"
 #include "row/row_nibbles.h"
 #include "row/row_x86.h"
 
@@ -18,7 +19,7 @@
  * made costs no code. */
 static inline pel_backend pel_i_row_backend(pel_backend wish)
 {
-#if defined(PEL_ROW_X86)
+#if defined(PEL_ROW_X86) || defined(PEL_ROW_NEON)
     return pel_backend_resolve(wish);
 #else
     (void)wish;
@@ -38,6 +39,11 @@ static inline void pel_i_row_classify_pairs(pel_backend backend, const uint8_t *
 #if defined(PEL_ROW_X86)
     case PEL_BACKEND_AVX2:
         done = pel_row_classify_nibbles_avx2(nibbles, src, count, labels);
+        break;
+#endif
+#if defined(PEL_ROW_NEON)
+    case PEL_BACKEND_NEON:
+        done = pel_row_classify_nibbles_neon(nibbles, src, count, labels);
         break;
 #endif
     default:

@@ -12,6 +12,10 @@ static inline uint16_t pel_i_row_find_runs(pel_backend backend, const uint8_t *l
     case PEL_BACKEND_AVX2:
         return pel_row_find_runs_avx2(labels, count, edges);
 #endif
+#if defined(PEL_ROW_NEON)
+    case PEL_BACKEND_NEON:
+        return pel_row_find_runs_neon(labels, count, edges);
+#endif
     default:
         return pel_row_find_runs(labels, count, edges);
     }
@@ -25,6 +29,11 @@ static inline uint16_t pel_i_row_classify_runs(pel_backend backend, const uint8_
     if (backend == PEL_BACKEND_SCALAR) {
         return pel_row_classify_runs(boxes, src, count, labels, edges);
     }
+#if defined(PEL_ROW_NEON)
+    if (backend == PEL_BACKEND_NEON) {
+        return pel_row_classify_runs_neon(nibbles, boxes, src, count, labels, edges);
+    }
+#endif
     pel_i_row_classify_pairs(backend, nibbles, boxes, src, count, labels);
     return pel_i_row_find_runs(backend, labels, count, edges);
 }
