@@ -21,6 +21,12 @@ static int has_avx2(void)
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&
            __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
 }
+
+static int has_avx512(void)
+{
+    return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vbmi");
+}
 #endif
 
 int pel_backend_available(pel_backend backend)
@@ -34,6 +40,8 @@ int pel_backend_available(pel_backend backend)
         return __builtin_cpu_supports("ssse3") != 0;
     case PEL_BACKEND_AVX2:
         return has_avx2();
+    case PEL_BACKEND_AVX512:
+        return has_avx512();
 #endif
 #if defined(__GNUC__) && defined(__aarch64__) && defined(__ARM_NEON) &&                            \
     __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__

@@ -1,12 +1,13 @@
 /*
- * Which version of a row kernel runs: the one place where backends are told apart. A version that
- * works on whole vectors only does the first pixels, the plain one the rest.
+ * Which version of a row kernel runs: the one place where backends are told apart. On x86
+ * a row narrower than two vectors is for the next smaller ones, in the end for plain C.
  */
 #ifndef PEL_ROW_SELECT_H
 #define PEL_ROW_SELECT_H
 
 #include "pel/backend.h"
 #include "row/row.h"
+#include "row/row_mve.h"
 #include "row/row_neon.h"
 #include "row/row_nibbles.h"
 #include "row/row_x86.h"
@@ -35,26 +36,29 @@ static inline void pel_i_row_classify_pairs(pel_backend backend, const uint8_t *
     pel_row_pairs rest = *src;
     uint16_t done = 0; /* even */
 
-    switch (backend) {
 #if defined(PEL_ROW_X86)
-    case PEL_BACKEND_AVX2:
-        done = pel_row_classify_nibbles_avx2(nibbles, src, count, labels);
-        break;
-#endif
-#if defined(PEL_ROW_NEON)
-    case PEL_BACKEND_NEON:
-        done = pel_row_classify_nibbles_neon(nibbles, src, count, labels);
-        break;
-#endif
-    default:
-        (void)nibbles;
-        break;
+    if (backend >= PEL_BACKEND_AVX512) {
+        done = pel_row_classify_nibbles_avx512(nibbles, src, count, labels);
     }
+    if (backend >= PEL_BACKEND_AVX2 && done == 0) {
+        done = pel_row_classify_nibbles_avx2(nibbles, src, count, labels);
+    }
+    if (backend >= PEL_BACKEND_SSSE3 && done == 0) {
+        done = pel_row_classify_nibbles_ssse3(nibbles, src, count, labels);
+    }
+#elif defined(PEL_ROW_NEON)
+    if (backend == PEL_BACKEND_NEON) {
+        done = pel_row_classify_nibbles_neon(nibbles, src, count, labels);
+    }
+#else
+    (void)backend;
+    (void)nibbles;
+#endif
     if (done < count) {
         rest.y += (size_t)done * src->y_step;
         rest.u += (size_t)(done / 2) * src->c_step;
         rest.v += (size_t)(done / 2) * src->c_step;
-        pel_row_classify_pairs(boxes, &rest, (uint16_t)(count - done), labels + done);
+        PEL_BEST_CLASSIFY_PAIRS(boxes, &rest, (uint16_t)(count - done), labels + done);
     }
 }
 
