@@ -12,6 +12,7 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/row/row_avx2.c
     ${PEL_LIB_DIR}/src/row/row_avx512.c
     ${PEL_LIB_DIR}/src/row/row_neon.c
+    ${PEL_LIB_DIR}/src/row/row_mve.c
     ${PEL_LIB_DIR}/src/row/row_filter_c.c
     ${PEL_LIB_DIR}/src/row/row_filter_dsp.c
     ${PEL_LIB_DIR}/src/row/row_filter_narrow.c

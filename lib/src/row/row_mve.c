@@ -1,0 +1,314 @@
+/*
+ * Row kernels for Helium (MVE): 32 pixels at a time, as 16 pairs. A mask table of 256 bytes is
+ * looked up for 16 pixels by one gathering load; the masks of U and V, which pairs share, once for
+ * 32. Elsewhere this file is empty.
+ */
+#include "row/row_mve.h"
+
+#if PEL_ROW_MVE && PEL_CLASS_MAX == 8
+#include <arm_mve.h>
+
+enum { BLOCK = 32 };
+
+#define INLINE __attribute__((always_inline)) static inline
+
+/* ---- Pixels to masks ----------------------------------------------------------------------- */
+
+/* How the bytes of a row lie: Y C Y D or C Y D Y, C D in a plane beside Y's, C and D in a plane
+ * each, or all pixels of one C and D. OTHER is for the plain version. */
+typedef enum layout { OTHER, LUMA_FIRST, CHROMA_FIRST, TWO_PLANES, THREE_PLANES, GRAY } layout;
+
+/* A row and the tables of its bytes; C is that of U and V which comes first in memory. Packed
+ * pixels begin at c. */
+typedef struct source {
+    const uint8_t *y, *c, *d;
+    const uint8_t *of_y, *of_c, *of_d;
+} source;
+
+/* C and D of 32 pixels apart, and of Y those of the left and the right pixels of the pairs. */
+typedef struct pixels {
+    uint8x16_t left, right, c, d;
+} pixels;
+
+static source source_of(const pel_row_boxes *boxes, const pel_row_pairs *src)
+{
+    const int u_first = (uintptr_t)src->u < (uintptr_t)src->v;
+    source s;
+
+    s.y = src->y;
+    s.c = u_first ? src->u : src->v;
+    s.d = u_first ? src->v : src->u;
+    s.of_y = boxes->y;
+    s.of_c = u_first ? boxes->u : boxes->v;
+    s.of_d = u_first ? boxes->v : boxes->u;
+    return s;
+}
+
+static layout layout_of(const pel_row_pairs *src, const source *s)
+{
+    const uintptr_t y = (uintptr_t)s->y, c = (uintptr_t)s->c, apart = (uintptr_t)s->d - c;
+
+    if (src->y_step == 2 && src->c_step == 4 && apart == 2) {
+        return c == y + 1 ? LUMA_FIRST : c + 1 == y ? CHROMA_FIRST : OTHER;
+    }
+    if (src->y_step != 1) {
+        return OTHER;
+    }
+    return src->c_step == 0                 ? GRAY
+           : src->c_step == 1               ? THREE_PLANES
+           : src->c_step == 2 && apart == 1 ? TWO_PLANES
+                                            : OTHER;
+}
+
+/* The pixels from s on, and s moved on behind them. */
+INLINE pixels next_pixels(source *s, layout how)
+{
+    pixels p;
+
+    if (how == LUMA_FIRST) {
+        const uint8x16x4_t all = vld4q_u8(s->y);
+        p.left = all.val[0];
+        p.c = all.val[1];
+        p.right = all.val[2];
+        p.d = all.val[3];
+        s->y += 64;
+    } else if (how == CHROMA_FIRST) {
+        const uint8x16x4_t all = vld4q_u8(s->c);
+        p.c = all.val[0];
+        p.left = all.val[1];
+        p.d = all.val[2];
+        p.right = all.val[3];
+        s->c += 64;
+    } else {
+        const uint8x16x2_t both = vld2q_u8(s->y);
+        p.left = both.val[0];
+        p.right = both.val[1];
+        s->y += 32;
+        if (how == TWO_PLANES) {
+            const uint8x16x2_t chroma = vld2q_u8(s->c);
+            p.c = chroma.val[0];
+            p.d = chroma.val[1];
+            s->c += 32;
+        } else if (how == THREE_PLANES) {
+            p.c = vld1q_u8(s->c);
+            p.d = vld1q_u8(s->d);
+            s->c += 16;
+            s->d += 16;
+        } else {
+            p.c = vdupq_n_u8(*s->c);
+            p.d = vdupq_n_u8(*s->d);
+        }
+    }
+    return p;
+}
+
+INLINE uint8x16_t chroma_masks(const source *s, const pixels *p)
+{
+    return vandq_u8(vldrbq_gather_offset_u8(s->of_c, p->c), vldrbq_gather_offset_u8(s->of_d, p->d));
+}
+
+/* ---- Masks to labels ----------------------------------------------------------------------- */
+
+/* The label of each mask: 1 + the place of its lowest bit. */
+#define L1(high) high, 1, 2, 1, 3, 1, 2, 1, 4, 1, 2, 1, 3, 1, 2, 1
+static const uint8_t label_of_mask[256] = {L1(0), L1(5), L1(6), L1(5), L1(7), L1(5), L1(6), L1(5),
+                                           L1(8), L1(5), L1(6), L1(5), L1(7), L1(5), L1(6), L1(5)};
+#undef L1
+
+/* Elements of both in turn. In registers that are neighbours, as the instructions ask for: what
+ * vst2q_u8 is made into brings them there by way of memory. */
+INLINE void store_in_turn(uint8x16_t left, uint8x16_t right, uint8_t *labels)
+{
+    register uint8x16_t first __asm__("q0") = left;
+    register uint8x16_t second __asm__("q1") = right;
+
+    __asm__ volatile("vst20.8 {q0, q1}, [%2]\n\tvst21.8 {q0, q1}, [%2]"
+                     :
+                     : "t"(first), "t"(second), "r"(labels)
+                     : "memory");
+}
+
+INLINE void put_labels(const source *s, const pixels *p, uint8x16_t chroma, uint8_t *labels)
+{
+    const uint8x16_t left = vandq_u8(chroma, vldrbq_gather_offset_u8(s->of_y, p->left));
+    const uint8x16_t right = vandq_u8(chroma, vldrbq_gather_offset_u8(s->of_y, p->right));
+
+    store_in_turn(vldrbq_gather_offset_u8(label_of_mask, left),
+                  vldrbq_gather_offset_u8(label_of_mask, right), labels);
+}
+
+INLINE void classify(source s, layout how, uint8_t *labels, const uint8_t *end)
+{
+    while (labels != end) {
+        const pixels p = next_pixels(&s, how);
+        put_labels(&s, &p, chroma_masks(&s, &p), labels);
+        labels += BLOCK;
+    }
+}
+
+/* What is left of a row behind its first pixels. */
+static pel_row_pairs rest_of(const pel_row_pairs *src, uint16_t done)
+{
+    pel_row_pairs rest = *src;
+
+    rest.y += (size_t)done * src->y_step;
+    rest.u += (size_t)(done / 2) * src->c_step;
+    rest.v += (size_t)(done / 2) * src->c_step;
+    return rest;
+}
+
+void pel_row_classify_pairs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                uint16_t count, uint8_t *labels)
+{
+    const source s = source_of(boxes, src);
+    const layout how = layout_of(src, &s);
+    const uint16_t done = how == OTHER ? 0 : (uint16_t)(count - count % BLOCK);
+    const uint8_t *const end = labels + done;
+    const pel_row_pairs rest = rest_of(src, done);
+
+    switch (how) {
+    case LUMA_FIRST:
+        classify(s, LUMA_FIRST, labels, end);
+        break;
+    case CHROMA_FIRST:
+        classify(s, CHROMA_FIRST, labels, end);
+        break;
+    case TWO_PLANES:
+        classify(s, TWO_PLANES, labels, end);
+        break;
+    case THREE_PLANES:
+        classify(s, THREE_PLANES, labels, end);
+        break;
+    case GRAY:
+        classify(s, GRAY, labels, end);
+        break;
+    case OTHER:
+        break;
+    }
+    if (done < count) {
+        pel_row_classify_pairs(boxes, &rest, (uint16_t)(count - done), labels + done);
+    }
+}
+
+/* ---- Runs ---------------------------------------------------------------------------------- */
+
+/* Where the next run begins and the next one ends, and the label so far. As every run that begins
+ * ends before the next one begins, begins and ends are written apart from each other. */
+typedef struct run_writer {
+    uint16_t *begin, *end;
+    uint32_t label;
+} run_writer;
+
+/* The elements before those of a vector, the first of which is `before`; the last one takes its
+ * place. */
+INLINE uint8x16_t one_before(uint8x16_t labels, uint32_t *before)
+{
+    __asm__("vshlc %q0, %1, #8" : "+t"(labels), "+r"(*before));
+    return labels;
+}
+
+/* Writes x + the places of the bits, to every second place. */
+INLINE uint16_t *put_places(uint16_t *edge, uint32_t bits, uint32_t x)
+{
+    __asm__("rbit %0, %0" : "+r"(bits));
+    while (bits != 0) {
+        const uint32_t place = (uint32_t)__builtin_clz(bits);
+        __asm__ volatile("strh %1, [%0], #4" : "+r"(edge) : "r"(x + place) : "memory");
+        bits &= ~(UINT32_C(0x80000000) >> place);
+    }
+    return edge;
+}
+
+/* Finds the changes of the label in a block. */
+INLINE run_writer scan_block(run_writer writer, const uint8_t *labels, uint32_t x)
+{
+    const uint8x16_t first = vld1q_u8(labels), second = vld1q_u8(labels + 16);
+    const uint32_t before = writer.label != 0;
+    const uint8x16_t before_first = one_before(first, &writer.label);
+    const uint8x16_t before_second = one_before(second, &writer.label);
+    const uint32_t changes =
+        vcmpneq_u8(first, before_first) | (uint32_t)vcmpneq_u8(second, before_second) << 16;
+
+    if (changes != 0) {
+        const uint32_t inside = vcmpneq_n_u8(first, 0) | (uint32_t)vcmpneq_n_u8(second, 0) << 16;
+        writer.begin = put_places(writer.begin, changes & inside, x);
+        writer.end = put_places(writer.end, changes & (inside << 1 | before), x);
+    }
+    return writer;
+}
+
+/* Most blocks are background and told by their chroma alone. */
+INLINE run_writer find_runs(source s, layout how, uint8_t *labels, const uint8_t *end,
+                            uint16_t *edges)
+{
+    run_writer writer = {edges, edges + 1, 0};
+    uint8_t *at = labels;
+
+    while (at != end) {
+        const pixels p = next_pixels(&s, how);
+        const uint8x16_t chroma = chroma_masks(&s, &p);
+        if (vaddvaq_u8(writer.label, chroma) != 0) {
+            put_labels(&s, &p, chroma, at);
+            writer = scan_block(writer, at, (uint32_t)(at - labels));
+        }
+        at += BLOCK;
+    }
+    return writer;
+}
+
+static __attribute__((noinline)) run_writer runs_luma_first(source s, uint8_t *labels,
+                                                            const uint8_t *end, uint16_t *edges)
+{
+    return find_runs(s, LUMA_FIRST, labels, end, edges);
+}
+
+static __attribute__((noinline)) run_writer runs_chroma_first(source s, uint8_t *labels,
+                                                              const uint8_t *end, uint16_t *edges)
+{
+    return find_runs(s, CHROMA_FIRST, labels, end, edges);
+}
+
+/* The last labels of a row, one by one, and its end. */
+static run_writer find_runs_by_label(run_writer writer, const uint8_t *labels, unsigned x,
+                                     unsigned count)
+{
+    for (; x <= count; x++) {
+        const uint32_t label = x == count ? 0 : labels[x];
+        if (label != writer.label) {
+            *writer.begin = (uint16_t)x;
+            *writer.end = (uint16_t)x;
+            writer.begin += label != 0 ? 2 : 0;
+            writer.end += writer.label != 0 ? 2 : 0;
+            writer.label = label;
+        }
+    }
+    return writer;
+}
+
+uint16_t pel_row_classify_runs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                   uint16_t count, uint8_t *labels, uint16_t *edges)
+{
+    const source s = source_of(boxes, src);
+    const layout how = layout_of(src, &s);
+    const uint16_t done = (uint16_t)(count - count % BLOCK);
+    run_writer writer;
+
+    if (how == LUMA_FIRST) {
+        writer = runs_luma_first(s, labels, labels + done, edges);
+    } else if (how == CHROMA_FIRST) {
+        writer = runs_chroma_first(s, labels, labels + done, edges);
+    } else {
+        pel_row_classify_pairs_mve(boxes, src, count, labels);
+        return pel_row_find_runs(labels, count, edges);
+    }
+    if (done < count) {
+        const pel_row_pairs rest = rest_of(src, done);
+        pel_row_classify_pairs(boxes, &rest, (uint16_t)(count - done), labels + done);
+    }
+    writer = find_runs_by_label(writer, labels, done, count);
+    return (uint16_t)((size_t)(writer.begin - edges) / 2);
+}
+
+#else
+typedef int nothing_here; /* an empty file is no C */
+#endif

@@ -1,0 +1,27 @@
+/* The row kernels of row.h that exist for Helium (MVE), and where these are there. */
+#ifndef PEL_ROW_MVE_H
+#define PEL_ROW_MVE_H
+
+#include "row/row.h"
+
+/* Not for programs that are to be small: the plain versions stay in for what does not fit vectors.
+ */
+#if defined(__ARM_FEATURE_MVE) && !defined(__OPTIMIZE_SIZE__)
+#define PEL_ROW_MVE 1
+#else
+#define PEL_ROW_MVE 0
+#endif
+
+#if PEL_ROW_MVE && PEL_CLASS_MAX == 8
+void pel_row_classify_pairs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                uint16_t count, uint8_t *labels);
+uint16_t pel_row_classify_runs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                   uint16_t count, uint8_t *labels, uint16_t *edges);
+#define PEL_BEST_CLASSIFY_PAIRS pel_row_classify_pairs_mve
+#define PEL_BEST_CLASSIFY_RUNS pel_row_classify_runs_mve
+#else
+#define PEL_BEST_CLASSIFY_PAIRS pel_row_classify_pairs
+#define PEL_BEST_CLASSIFY_RUNS pel_row_classify_runs
+#endif
+
+#endif
