@@ -31,6 +31,7 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/classify.c
     ${PEL_LIB_DIR}/src/classify_plan.c
     ${PEL_LIB_DIR}/src/blobs.c
+    ${PEL_LIB_DIR}/src/blobs_measure.c
     ${PEL_LIB_DIR}/src/blobs_frame.c
     ${PEL_LIB_DIR}/src/blob_shape.c
     ${PEL_LIB_DIR}/src/blob_list.c

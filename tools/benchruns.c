@@ -79,6 +79,7 @@ int benchruns_start_blobs(bench_job *job)
     config->open_max = open_max;
     config->connectivity = 4;
     config->measure = (uint8_t)job->op->choice;
+    config->measurer = config->measure != 0 ? pel_blobs_measure : NULL;
     config->work_bytes = pel_blobs_bytes(width, open_max, config->measure);
     config->work = benchops_take(job, config->work_bytes);
     config->filter = &job->blob_filter;

@@ -411,6 +411,7 @@ static int find(struct job *job, const char *path, const pel_cview *view, pel_bl
         config.open_max = open_max;
         config.connectivity = job->connectivity;
         config.measure = PEL_MEASURE_ALL;
+        config.measurer = pel_blobs_measure;
         config.work = work;
         config.work_bytes = work_bytes;
         config.filter = &job->filter;

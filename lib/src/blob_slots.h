@@ -1,4 +1,4 @@
-/* What the working memory of a finder holds. Private to blobs.c and blobs_frame.c. */
+/* What the working memory of a finder holds. Private to the files of blobs. */
 #ifndef PEL_BLOB_SLOTS_H
 #define PEL_BLOB_SLOTS_H
 
@@ -9,24 +9,26 @@
 struct pel_blob_slot {
     uint32_t area; /* in the free and in the united list: the next slot */
     uint32_t sum_x, sum_y;
-    uint16_t x0, x1, y0, y1;
+    uint16_t x0, x1, y0;
+    uint16_t newest; /* the place_of its newest run */
     uint16_t parent; /* itself for a root */
-    uint8_t label;   /* 0: the slot is free */
-    uint8_t broken;  /* a run of the blob was lost */
+    uint8_t label;
+    uint8_t broken; /* a run of the blob was lost */
 };
 
-struct pel_blob_moments {
-    uint64_t xx12, xy, yy; /* 12 * sum of x*x: whole for every run without a division; <= 2^48 */
-};
+/*
+ * What is measured beside that takes 64-bit sums, in this order:
+ *   outline  1: low half: runs - pixel edges that they share, with the area half the perimeter;
+ *               high half: runs - touching pairs of runs, 1 - holes. One 64-bit sum, both signed
+ *   moments  3: 12 * sum of x*x (whole for every run without a division), x*y, y*y; each <= 2^48
+ *   colour   2: y in the low and u in the high half, each 255 * 2^22 < 2^30; v
+ */
 
-struct pel_blob_outline {
-    int32_t edges; /* runs - pixel edges that they share: with the area, half the perimeter */
-    int32_t euler; /* runs - touching pairs of runs = 1 - holes */
-};
-
-struct pel_blob_color {
-    uint32_t y, u, v; /* sums; 255 * 2^22 < 2^30 */
-};
+/* Tells the runs of the newest two rows apart: their blobs' ids lie in less than 2^16 bytes. */
+static inline uint16_t place_of(const uint16_t *id)
+{
+    return (uint16_t)(uintptr_t)id;
+}
 
 typedef struct pel_blob_slot slot;
 
@@ -45,10 +47,13 @@ typedef struct pel_blob_slot slot;
 /* Ends the lists of slots. */
 #define END 0xFFFFu
 
-/* What lies behind the last run of a row: every search stops here. */
+/* The run behind the last of a row, BEYOND - 1 .. BEYOND: every search stops there. */
 enum { BEYOND = 0x7FFF };
 
 enum { STATE_IDLE, STATE_ROWS };
+
+/* Takes a closed blob: counts it, asks filter and accept, calls on_blob, keeps it. */
+void pel_i_blobs_report(pel_blobs *b, const pel_blob *blob);
 
 /* Whether some memory overlaps what a finder writes: itself, its working memory and its results. */
 static inline int pel_i_blobs_write(const pel_blobs *b, const pel_blobs_config *c,

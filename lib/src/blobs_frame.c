@@ -29,16 +29,17 @@ static int places_fit(const pel_blobs *b, const pel_blobs_config *c)
 static pel_status check_config(const pel_blobs *b, const pel_blobs_config *c)
 {
     const uint64_t sum_limit = (uint64_t)1 << 33; /* 2 * sum_x < width * width * height */
-    const uint64_t pixels = (uint64_t)c->width * c->height;
+    const uint32_t pixels = (uint32_t)c->width * c->height;
+    const uint32_t side = c->width > c->height ? c->width : c->height;
 
     if (!c->work || !pel_i_aligned8(c->work) || (!c->results && c->results_max > 0) ||
         (c->connectivity != 0 && c->connectivity != 4 && c->connectivity != 8) ||
         c->measure > PEL_MEASURE_ALL || c->open_max == 0 || c->open_max > PEL_BLOBS_OPEN_LIMIT ||
+        (c->measure != 0 && !c->measurer) ||
         ((c->measure & PEL_MEASURE_COLOR) != 0 && !c->reader)) {
         return PEL_ERR_ARG;
     }
-    if (pixels == 0 || c->width > PEL_SIDE_MAX || c->height > PEL_SIDE_MAX ||
-        pixels * c->width > sum_limit || pixels * c->height > sum_limit) {
+    if (pixels == 0 || side > PEL_SIDE_MAX || (uint64_t)pixels * side > sum_limit) {
         return PEL_ERR_RANGE;
     }
     if (!places_fit(b, c)) {
@@ -47,64 +48,47 @@ static pel_status check_config(const pel_blobs *b, const pel_blobs_config *c)
     return c->work_bytes < bytes_needed(c) ? PEL_ERR_SPACE : PEL_OK;
 }
 
-/* Takes `count` elements from the working memory. The elements with the strictest alignment are
- * taken first, so that all are aligned. */
-static void *take(uint8_t **next, size_t count, size_t bytes)
-{
-    void *const taken = *next;
-    *next += count * bytes;
-    return taken;
-}
-
+/* The elements with the strictest alignment lie first, so that all are aligned. */
 static void lay_out(pel_blobs *b)
 {
     const pel_blobs_config *const c = &b->config;
     const size_t open = c->open_max, width = (size_t)c->width + 1;
-    uint8_t *next = c->work;
 
-    b->moments = c->measure & PEL_MEASURE_MOMENTS ? take(&next, open, sizeof *b->moments) : NULL;
-    b->slots = take(&next, open, sizeof *b->slots);
-    b->outlines = c->measure & PEL_MEASURE_OUTLINE ? take(&next, open, sizeof *b->outlines) : NULL;
-    b->colors = c->measure & PEL_MEASURE_COLOR ? take(&next, open, sizeof *b->colors) : NULL;
-    for (unsigned i = 0; i < 2; i++) {
-        b->runs[i] = take(&next, width, sizeof *b->runs[i]);
-    }
-    for (unsigned i = 0; i < 2; i++) {
-        b->ids[i] = take(&next, width, sizeof *b->ids[i]);
-    }
+    b->extra_count = (uint8_t)((PEL_BLOBS_SLOT_BYTES(c->measure) - sizeof(slot)) / 8);
+    b->extras = c->work;
+    b->slots = (slot *)(void *)(b->extras + open * b->extra_count);
+    b->runs[0] = (pel_run *)(void *)(b->slots + open);
+    b->runs[1] = b->runs[0] + width;
+    b->ids[0] = (uint16_t *)(void *)(b->runs[1] + width);
+    b->ids[1] = b->ids[0] + width;
 }
 
 static void free_all_slots(pel_blobs *b)
 {
-    for (uint16_t id = 0; id < b->config.open_max; id++) {
-        b->slots[id].label = 0;
-        b->slots[id].area = (uint32_t)id + 1;
+    uint32_t next = END;
+
+    for (uint32_t id = b->config.open_max; id-- > 0; next = id) {
+        b->slots[id].area = next;
     }
-    b->slots[b->config.open_max - 1].area = END;
     b->free_slot = 0;
     b->united_slot = END;
 }
 
 pel_status pel_blobs_begin(pel_blobs *b, const pel_blobs_config *config)
 {
-    const pel_blobs_counts no_counts = {0, 0, 0, 0, 0, 0, 0, 0};
+    const pel_blobs zero = {0};
+    const pel_run beyond = {BEYOND - 1, BEYOND};
     const pel_status status = b && config ? check_config(b, config) : PEL_ERR_ARG;
 
     if (status != PEL_OK) {
         return status;
     }
+    *b = zero;
     b->config = *config;
-    b->counts = no_counts;
     b->reach = config->connectivity == 4 ? 0 : 1;
     lay_out(b);
-    b->open_count = 0;
     free_all_slots(b);
-    b->results_count = 0;
-    b->above = 0;
-    b->above_count = 0;
-    b->runs[0][0].x0 = BEYOND;
-    b->runs[0][0].x1 = BEYOND;
-    b->next_row = 0;
+    b->runs[0][0] = beyond;
     b->state = STATE_ROWS;
     return PEL_OK;
 }

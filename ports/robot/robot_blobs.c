@@ -78,6 +78,7 @@ static pel_status begin_frame(struct robot *r)
     config.height = PORT_HEIGHT;
     config.open_max = ROBOT_OPEN_MAX;
     config.measure = ROBOT_MEASURE;
+    config.measurer = pel_blobs_measure;
     config.work = r->work;
     config.work_bytes = sizeof r->work;
     config.filter = &r->filter;

@@ -64,6 +64,7 @@ static void chain_init(chain *c, const char *input, unsigned measure)
     c->config.open_max = PEL_BLOBS_OPEN_SAFE(WIDTH);
     c->config.connectivity = 4;
     c->config.measure = (uint8_t)measure;
+    c->config.measurer = measure != 0 ? pel_blobs_measure : NULL;
     c->config.work = work;
     c->config.work_bytes = sizeof work;
     c->config.filter = &c->filter;

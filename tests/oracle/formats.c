@@ -364,6 +364,7 @@ static void find_by_library(const test_frame *frame, pel_range range, int connec
     config.open_max = WIDTH_MAX;
     config.connectivity = (uint8_t)connectivity;
     config.measure = PEL_MEASURE_ALL;
+    config.measurer = pel_blobs_measure;
     config.reader = pel_crow_read_yuv;
     config.work = work;
     config.work_bytes = sizeof work;

@@ -32,6 +32,7 @@ static pel_blobs_config good_config(unsigned measure)
     config.work = guarded_take(&work_memory, config.work_bytes, 0, 0x33);
     config.results = results;
     config.results_max = RESULTS;
+    config.measurer = pel_blobs_measure;
     config.reader = pel_crow_read_ycbcr;
     return config;
 }
@@ -96,6 +97,10 @@ static void begin_choices(void)
         config.measure = (uint8_t)value;
         config.reader = NULL;
         expect_begin(config, value < PEL_MEASURE_COLOR ? PEL_OK : PEL_ERR_ARG, "no reader");
+        config = good_config(PEL_MEASURE_ALL);
+        config.measure = (uint8_t)value;
+        config.measurer = NULL;
+        expect_begin(config, value == 0 ? PEL_OK : PEL_ERR_ARG, "no measurer");
     }
 }
 

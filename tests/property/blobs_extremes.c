@@ -140,6 +140,7 @@ static pel_status stream(unsigned kind, size frame, pel_blob *found, pel_blobs_c
     config.height = frame.height;
     config.open_max = PEL_BLOBS_OPEN_SAFE_ONE_CLASS(PEL_SIDE_MAX);
     config.measure = PEL_MEASURE_ALL;
+    config.measurer = pel_blobs_measure;
     config.reader = pel_crow_read_yuv;
     config.work = work;
     config.work_bytes = sizeof work;

@@ -366,6 +366,7 @@ static void compare_frame(const ref_map *map, const picture *pixels, const pel_b
     config.open_max = map->width;
     config.connectivity = (uint8_t)connectivity;
     config.measure = PEL_MEASURE_ALL;
+    config.measurer = pel_blobs_measure;
     config.reader = pel_crow_read_yuv;
     config.work = work;
     config.work_bytes = sizeof work;

@@ -114,6 +114,8 @@ static void configure(const setup *trial, pel_blobs_config *config)
     config->filter = trial->filter;
     config->accept = trial->shape != NULL ? pel_blob_shape_passes : NULL;
     config->limits = trial->shape;
+    /* Area, box and sums alone: both ways to them. */
+    config->measurer = trial->measure != 0 || trial->map.width % 2 == 0 ? pel_blobs_measure : NULL;
     config->reader = pel_crow_read_yuv;
     config->results = guarded_take(&results_memory, trial->results_max * sizeof(pel_blob), 0, 0x5A);
     config->results_max = trial->results_max;

@@ -63,6 +63,7 @@ static uint32_t find_squares(void)
     config.height = HEIGHT;
     config.open_max = OPEN;
     config.measure = MEASURE;
+    config.measurer = pel_blobs_measure;
     config.work = memory->work;
     config.work_bytes = sizeof memory->work;
     config.results = memory->results;

@@ -27,6 +27,7 @@ static void find_one(const char *picture, uint16_t width, uint16_t height)
     config.height = height;
     config.open_max = 4;
     config.measure = PEL_MEASURE_MOMENTS | PEL_MEASURE_OUTLINE;
+    config.measurer = pel_blobs_measure;
     config.work = work;
     config.work_bytes = sizeof work;
     config.results = found;

@@ -20,6 +20,7 @@ void setUp(void)
     config = zero;
     config.open_max = OPEN_MAX;
     config.measure = PEL_MEASURE_MOMENTS | PEL_MEASURE_OUTLINE;
+    config.measurer = pel_blobs_measure;
     config.work = work;
     config.work_bytes = sizeof work;
     config.results = found;
@@ -406,6 +407,7 @@ static void test_a_frame_from_pixels_to_mean_colour(void)
     config.width = 4;
     config.height = 2;
     config.measure = PEL_MEASURE_ALL;
+    config.measurer = pel_blobs_measure;
     config.reader = pel_crow_read_ycbcr;
     classifier.boxes = &boxes;
     TEST_ASSERT_EQUAL_INT(PEL_OK, pel_boxes_set(&boxes, 2, &orange));
@@ -479,9 +481,9 @@ static void test_begin_refuses_by_name(void)
 
 static void test_sizes_as_macro_and_function(void)
 {
-    /* 24 per open blob, 24 for moments, 8 for the outline, 12 for colour; 12 per column and one. */
+    /* 24 per open blob, 24 for moments, 8 for the outline, 16 for colour; 12 per column and one. */
     TEST_ASSERT_EQUAL_UINT(32 * 24 + 12 * 321, PEL_BLOBS_BYTES(320, 32, 0));
-    TEST_ASSERT_EQUAL_UINT(32 * (24 + 24 + 8 + 12) + 12 * 321,
+    TEST_ASSERT_EQUAL_UINT(32 * (24 + 24 + 8 + 16) + 12 * 321,
                            PEL_BLOBS_BYTES(320, 32, PEL_MEASURE_ALL));
     TEST_ASSERT_TRUE(pel_blobs_bytes(320, 32, PEL_MEASURE_ALL) ==
                      PEL_BLOBS_BYTES(320, 32, PEL_MEASURE_ALL));

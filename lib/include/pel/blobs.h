@@ -15,6 +15,7 @@
  *     config.height = 240;
  *     config.open_max = 32;
  *     config.measure = PEL_MEASURE_MOMENTS;
+ *     config.measurer = pel_blobs_measure;
  *     config.work = work;
  *     config.work_bytes = sizeof work;
  *     config.results = found;
@@ -43,6 +44,8 @@
 extern "C" {
 #endif
 
+struct pel_blobs;
+
 /* ---- A blob -------------------------------------------------------------------------------- */
 
 /*
@@ -67,12 +70,13 @@ typedef struct pel_blob {
 
 enum { PEL_EDGE_LEFT = 1, PEL_EDGE_RIGHT = 2, PEL_EDGE_TOP = 4, PEL_EDGE_BOTTOM = 8 };
 
-/* What to measure beside area, box, sum_x and sum_y, which are always there. Costs per open blob,
- * and time per run (per pixel of the class for colour). */
+/* What to measure beside area, box, sum_x and sum_y, which are always there, and which
+ * pel_blobs_measure measures. Costs per open blob, and time per run (per pixel of the class for
+ * colour). */
 enum {
     PEL_MEASURE_MOMENTS = 1, /* 24 bytes: sum_xx, sum_xy, sum_yy, for angle and roundness */
     PEL_MEASURE_OUTLINE = 2, /* 8 bytes: perimeter, holes */
-    PEL_MEASURE_COLOR = 4,   /* 12 bytes: mean_y, mean_u, mean_v; needs the pixels of each row */
+    PEL_MEASURE_COLOR = 4,   /* 16 bytes: mean_y, mean_u, mean_v; needs the pixels of each row */
     PEL_MEASURE_ALL = 7
 };
 
@@ -179,12 +183,17 @@ uint16_t pel_find_runs(const uint8_t *labels, uint16_t width, pel_run *runs);
  * the same in elements of uint64_t, which have the alignment that is needed.
  */
 #define PEL_BLOBS_SLOT_BYTES(measure)                                                              \
-    (24u + (((measure)&1u) ? 24u : 0u) + (((measure)&2u) ? 8u : 0u) + (((measure)&4u) ? 12u : 0u))
+    (24u + (((measure)&1u) ? 24u : 0u) + (((measure)&2u) ? 8u : 0u) + (((measure)&4u) ? 16u : 0u))
 #define PEL_BLOBS_BYTES(width, open_max, measure)                                                  \
     ((uint32_t)(open_max)*PEL_BLOBS_SLOT_BYTES(measure) + 12u * ((uint32_t)(width) + 1u))
 #define PEL_BLOBS_WORDS(width, open_max, measure)                                                  \
     ((PEL_BLOBS_BYTES(width, open_max, measure) + 7u) / 8u)
 uint32_t pel_blobs_bytes(uint16_t width, uint16_t open_max, unsigned measure);
+
+/* A row joins the blobs, and more is measured than without; not to be called by programs. */
+typedef pel_status pel_blobs_measurer(struct pel_blobs *blobs, const uint8_t *labels,
+                                      const pel_crow *pixels);
+pel_blobs_measurer pel_blobs_measure;
 
 /*
  * What to find, and with which memory. Only width, height, work, work_bytes and open_max must be
@@ -196,7 +205,7 @@ typedef struct pel_blobs_config {
     uint16_t open_max; /* blobs open at the same time, 1..PEL_BLOBS_OPEN_LIMIT: memory against loss;
                              32 serves most robots */
     uint8_t connectivity; /* 8 (or 0): diagonal neighbours touch; 4: they do not */
-    uint8_t measure;      /* PEL_MEASURE_... bits */
+    uint8_t measure;      /* PEL_MEASURE_... bits; they need `measurer` */
     void *work;           /* PEL_BLOBS_BYTES(width, open_max, measure), aligned to 8 bytes; in use
                              from begin to end, may be shared between frames and finders */
     size_t work_bytes;
@@ -207,6 +216,10 @@ typedef struct pel_blobs_config {
      * pel_blob_shape_passes, or one of your own; NULL: nobody is asked. */
     pel_blob_accept *accept;
     const void *limits; /* handed to accept; not copied */
+
+    /* The code behind the bits of `measure`: pel_blobs_measure. NULL: area, box, sum_x and sum_y
+     * only, and a program that never names it does without that code. */
+    pel_blobs_measurer *measurer;
 
     /* Reads the pixels for PEL_MEASURE_COLOR, which needs it: pel_crow_read_yuv for any format, or
      * one that links less (see pel_reader). */
@@ -236,23 +249,21 @@ typedef struct pel_blobs_counts {
     uint16_t open_peak;  /* the most blobs that were open at once: what open_max needs to be */
 } pel_blobs_counts;
 
-/* The finder. The caller places it (132 bytes on 32-bit machines), zeroes it unless pel_blobs_begin
+/* The finder. The caller places it (128 bytes on 32-bit machines), zeroes it unless pel_blobs_begin
  * is the first to see it, and reads `counts`; the rest is private. */
 typedef struct pel_blobs {
     pel_blobs_config config;
     pel_blobs_counts counts;
     struct pel_blob_slot *slots;
-    struct pel_blob_moments *moments; /* NULL if not measured; likewise the next two */
-    struct pel_blob_outline *outlines;
-    struct pel_blob_color *colors;
+    uint64_t *extras; /* what is measured beyond the basics, extra_count for each slot */
     pel_run *runs[2]; /* of the row above and of this row, changing places */
     uint16_t *ids[2]; /* the blob of each run */
     uint32_t results_count;
-    uint16_t above_count;
     uint16_t next_row;
     uint16_t free_slot;
     uint16_t united_slot;
     uint16_t open_count;
+    uint8_t extra_count;
     uint8_t above;
     uint8_t reach;
     uint8_t state;
@@ -262,7 +273,8 @@ typedef struct pel_blobs {
  * Starts a frame; any frame in progress is forgotten. The config is copied.
  *
  * PEL_ERR_ARG: null pointer, misaligned work, finder, work and results that overlap, connectivity
- * not 0, 4, 8, unknown measure bits, open_max out of range, colour without a reader.
+ * not 0, 4, 8, unknown measure bits, a measure without measurer, colour without a reader, open_max
+ * out of range.
  * PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX, or so large that a 32-bit sum could overflow
  * (width * width * height or width * height * height over 2^33: 1920 x 1080 and 2048 x 2048 are
  * allowed, 2592 x 1944 is not). PEL_ERR_SPACE: work_bytes too small.

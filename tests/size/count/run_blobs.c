@@ -78,6 +78,7 @@ static void begin_chain(const job *j)
     config.open_max = OPEN_MAX;
     config.connectivity = 4;
     config.measure = (uint8_t)j->other;
+    config.measurer = config.measure != 0 ? pel_blobs_measure : NULL;
     config.reader = pel_crow_read_yuv;
     config.work = work;
     config.work_bytes = WORK_BYTES;

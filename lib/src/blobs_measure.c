@@ -1,0 +1,128 @@
+/* Moments, outline and mean colour of blobs, and the walk over a row that measures them. */
+#include "pel/blobs.h"
+
+#include "blob_slots.h"
+#include "row/row.h"
+
+/* The sums of a slot. */
+static inline uint64_t *extras_of(const pel_blobs *b, size_t id)
+{
+    return b->extras + id * b->extra_count;
+}
+
+static inline void clear_extras(const pel_blobs *b, unsigned id)
+{
+    for (unsigned i = 0; i < b->extra_count; i++) {
+        extras_of(b, id)[i] = 0;
+    }
+}
+
+static inline void unite_extras(const pel_blobs *b, unsigned into, unsigned from)
+{
+    for (unsigned i = 0; i < b->extra_count; i++) {
+        extras_of(b, into)[i] += extras_of(b, from)[i];
+    }
+}
+
+/* A run of the blob touches a run above: a pair more, and so many edges less, none at a corner. */
+static inline void touch_extras(const pel_blobs *b, unsigned id, const pel_run *run,
+                                const pel_run *above)
+{
+    const uint16_t x0 = above->x0 > run->x0 ? above->x0 : run->x0;
+    const uint16_t x1 = above->x1 < run->x1 ? above->x1 : run->x1;
+
+    if (id < LOST && (b->config.measure & PEL_MEASURE_OUTLINE)) {
+        *extras_of(b, id) -= ((uint64_t)1 << 32) + (uint16_t)(x1 - x0);
+    }
+}
+
+static void add_color(const pel_blobs *b, uint64_t *sums, const pel_run *run,
+                      const pel_crow *pixels)
+{
+    enum { CHUNK = 8 };
+    uint8_t y[CHUNK], u[CHUNK], v[CHUNK];
+
+    for (unsigned x = run->x0; x < run->x1; x += CHUNK) {
+        const uint16_t n = (uint16_t)(run->x1 - x < CHUNK ? run->x1 - x : CHUNK);
+        (void)b->config.reader(pixels, (uint16_t)x, n, pixels->range, y, u, v); /* checked before */
+        sums[0] += pel_row_sum(y, n) | (uint64_t)pel_row_sum(u, n) << 32;
+        sums[1] += pel_row_sum(v, n);
+    }
+}
+
+/* Adds what is measured beyond area, box and sums. With s = x0 + x1 - 1, twice the middle of a run
+ * of n, its sum of x*x is n (3 s^2 + n^2 - 1) / 12; the bracket is below 2^30. */
+static inline void add_extras(const pel_blobs *b, unsigned id, const pel_run *run, uint32_t sum_x,
+                              const pel_crow *pixels)
+{
+    const uint32_t n = (uint32_t)run->x1 - run->x0, s = (uint32_t)run->x0 + run->x1 - 1;
+    const uint32_t y = b->next_row;
+    uint64_t *extra = extras_of(b, id);
+
+    if (b->config.measure & PEL_MEASURE_OUTLINE) {
+        *extra++ += ((uint64_t)1 << 32) + 1;
+    }
+    if (b->config.measure & PEL_MEASURE_MOMENTS) {
+        extra[0] += (uint64_t)n * (3 * s * s + n * n - 1);
+        extra[1] += (uint64_t)sum_x * y;
+        extra[2] += (uint64_t)n * (y * y);
+        extra += 3;
+    }
+    if (b->config.measure & PEL_MEASURE_COLOR) {
+        add_color(b, extra, run, pixels);
+    }
+}
+
+static uint8_t mean(uint32_t sum, uint32_t area)
+{
+    return (uint8_t)((2 * sum + area) / (2 * area));
+}
+
+static void describe_extras(const pel_blobs *b, unsigned id, pel_blob *blob)
+{
+    const uint64_t *sum = extras_of(b, id);
+
+    if (b->config.measure & PEL_MEASURE_OUTLINE) {
+        const uint64_t outline = *sum++ + blob->area; /* its low half is no longer negative */
+        blob->perimeter = 2 * (uint32_t)outline;
+        blob->holes = 1 - (uint32_t)(outline >> 32);
+    }
+    if (b->config.measure & PEL_MEASURE_MOMENTS) {
+        /* A multiple of 12: shift by 2, then times the inverse of 3 modulo 2^64. */
+        blob->sum_xx = (sum[0] >> 2) * UINT64_C(0xAAAAAAAAAAAAAAAB);
+        blob->sum_xy = sum[1];
+        blob->sum_yy = sum[2];
+        sum += 3;
+    }
+    if (b->config.measure & PEL_MEASURE_COLOR) {
+        blob->mean_y = mean((uint32_t)sum[0], blob->area);
+        blob->mean_u = mean((uint32_t)(sum[0] >> 32), blob->area);
+        blob->mean_v = mean((uint32_t)sum[1], blob->area);
+    }
+}
+
+#include "blob_walk_template.h"
+
+static pel_status check_pixels(const pel_blobs *b, const pel_crow *pixels)
+{
+    uint8_t y, u, v;
+    const pel_status status =
+        pixels ? b->config.reader(pixels, 0, 0, pixels->range, &y, &u, &v) : PEL_ERR_ARG;
+
+    if (status != PEL_OK) {
+        return status;
+    }
+    return pel_color_width(pixels->format, pixels->width) == b->config.width ? PEL_OK
+                                                                             : PEL_ERR_FORMAT;
+}
+
+pel_status pel_blobs_measure(pel_blobs *b, const uint8_t *labels, const pel_crow *pixels)
+{
+    const pel_status status =
+        labels && (b->config.measure & PEL_MEASURE_COLOR) ? check_pixels(b, pixels) : PEL_OK;
+
+    if (status == PEL_OK) {
+        join_row(b, labels, pixels);
+    }
+    return status;
+}
