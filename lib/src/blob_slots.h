@@ -55,6 +55,13 @@ enum { STATE_IDLE, STATE_ROWS };
 /* Takes a closed blob: counts it, asks filter and accept, calls on_blob, keeps it. */
 void pel_i_blobs_report(pel_blobs *b, const pel_blob *blob);
 
+/* Where the runs of the next row go. */
+uint16_t *pel_i_blobs_edges(const pel_blobs *b);
+
+/* Adds the row whose runs lie there; of `labels` only the first of each run is read. */
+pel_status pel_i_blobs_join(pel_blobs *b, uint16_t count, const uint8_t *labels,
+                            const pel_crow *pixels);
+
 /* Whether some memory overlaps what a finder writes: itself, its working memory and its results. */
 static inline int pel_i_blobs_write(const pel_blobs *b, const pel_blobs_config *c,
                                     const void *memory, size_t bytes)
@@ -62,6 +69,16 @@ static inline int pel_i_blobs_write(const pel_blobs *b, const pel_blobs_config *
     return pel_i_overlap(b, sizeof *b, memory, bytes) ||
            pel_i_overlap(c->work, c->work_bytes, memory, bytes) ||
            pel_i_overlap(c->results, c->results_max * sizeof *c->results, memory, bytes);
+}
+
+/* What is wrong with the number of a row, or with where its labels lie. */
+static inline pel_status pel_i_blobs_check_row(const pel_blobs *b, uint16_t y,
+                                               const uint8_t *labels)
+{
+    if (b->state != STATE_ROWS || y != b->next_row || y >= b->config.height) {
+        return PEL_ERR_ORDER;
+    }
+    return pel_i_blobs_write(b, &b->config, labels, b->config.width) ? PEL_ERR_ARG : PEL_OK;
 }
 
 #endif

@@ -1,7 +1,7 @@
 /*
  * Streaming connected components: how a row joins the open blobs.
  *
- * First the runs of the row are found. Then one walk from left to right goes over them and over the
+ * The runs of the row have been found. One walk from left to right goes over them and over the
  * runs of the row above:
  *   join     each run to the open blobs whose runs it touches above; blobs that turn out to be one
  *            are united (a union-find forest over the slots)
@@ -272,14 +272,12 @@ static void join_late(pel_blobs *b, size_t count, const uint8_t *labels, const p
     }
 }
 
-/* Joins a row to the blobs; labels NULL: there is none behind the last. */
-static void join_row(pel_blobs *b, const uint8_t *labels, const pel_crow *pixels)
+/* Joins the runs of a row, which are in their place, to the blobs. */
+static void join_row(pel_blobs *b, size_t count, const uint8_t *labels, const pel_crow *pixels)
 {
     const pel_run beyond = {BEYOND - 1, BEYOND};
-    pel_run *const runs = b->runs[1 - b->above];
-    const size_t count = labels ? pel_row_find_runs(labels, b->config.width, &runs->x0) : 0;
 
-    runs[count] = beyond;
+    b->runs[1 - b->above][count] = beyond;
     if (walk(b, 0, b->runs[b->above], labels, pixels, 0)) {
         join_late(b, count, labels, pixels);
     }

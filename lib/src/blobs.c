@@ -3,7 +3,7 @@
 
 #include "blob_list.h"
 #include "blob_slots.h"
-#include "row/row.h"
+#include "row/row_select_runs.h"
 
 /* Nothing is measured beyond area, box and sums. */
 
@@ -93,37 +93,38 @@ void pel_i_blobs_report(pel_blobs *b, const pel_blob *blob)
 
 /* ---- A row --------------------------------------------------------------------------------- */
 
-/* Joins a row to the blobs in the way that is named; labels NULL: there is none behind the last. */
-static pel_status add_row(pel_blobs *b, const uint8_t *labels, const pel_crow *pixels)
+uint16_t *pel_i_blobs_edges(const pel_blobs *b)
 {
+    return &b->runs[1 - b->above]->x0;
+}
+
+pel_status pel_i_blobs_join(pel_blobs *b, uint16_t count, const uint8_t *labels,
+                            const pel_crow *pixels)
+{
+    const uint32_t lost_before = b->counts.lost_opens;
+
     if (b->config.measurer) {
-        return b->config.measurer(b, labels, pixels);
+        const pel_status status = b->config.measurer(b, count, labels, pixels);
+        if (status != PEL_OK) {
+            return status;
+        }
+    } else {
+        join_row(b, count, labels, pixels);
     }
-    join_row(b, labels, pixels);
-    return PEL_OK;
+    b->next_row++;
+    return b->counts.lost_opens == lost_before ? PEL_OK : PEL_TRUNCATED;
 }
 
 pel_status pel_blobs_row(pel_blobs *b, uint16_t y, const uint8_t *labels, const pel_crow *pixels)
 {
-    uint32_t lost_before;
-    pel_status status;
+    pel_status status = b && labels ? pel_i_blobs_check_row(b, y, labels) : PEL_ERR_ARG;
+    uint16_t count;
 
-    if (!b || !labels) {
-        return PEL_ERR_ARG;
-    }
-    if (b->state != STATE_ROWS || y != b->next_row || y >= b->config.height) {
-        return PEL_ERR_ORDER;
-    }
-    if (pel_i_blobs_write(b, &b->config, labels, b->config.width)) {
-        return PEL_ERR_ARG;
-    }
-    lost_before = b->counts.lost_opens;
-    status = add_row(b, labels, pixels);
     if (status != PEL_OK) {
         return status;
     }
-    b->next_row++;
-    return b->counts.lost_opens == lost_before ? PEL_OK : PEL_TRUNCATED;
+    count = pel_i_row_find_runs(b->config.backend, labels, b->config.width, pel_i_blobs_edges(b));
+    return pel_i_blobs_join(b, count, labels, pixels);
 }
 
 /* ---- The end ------------------------------------------------------------------------------- */
@@ -136,7 +137,7 @@ pel_status pel_blobs_end(pel_blobs *b, uint32_t *count)
     if (b->state != STATE_ROWS || b->next_row != b->config.height) {
         return PEL_ERR_ORDER;
     }
-    (void)add_row(b, NULL, NULL);
+    (void)pel_i_blobs_join(b, 0, NULL, NULL); /* there is no row below the last */
     pel_blobs_sort(b->config.results, b->results_count);
     *count = b->results_count;
     b->state = STATE_IDLE;

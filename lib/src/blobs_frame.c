@@ -1,9 +1,10 @@
-/* A frame: its start and the loop over its rows. */
+/* A frame: its start, its rows straight from pixels, and the loop over them. */
 #include "blob_slots.h"
 #include "classifier.h"
 #include "format.h"
 #include "overlap.h"
 #include "pel/blobs.h"
+#include "row/row_select.h"
 
 uint32_t pel_blobs_bytes(uint16_t width, uint16_t open_max, unsigned measure)
 {
@@ -34,7 +35,8 @@ static pel_status check_config(const pel_blobs *b, const pel_blobs_config *c)
 
     if (!c->work || !pel_i_aligned8(c->work) || (!c->results && c->results_max > 0) ||
         (c->connectivity != 0 && c->connectivity != 4 && c->connectivity != 8) ||
-        c->measure > PEL_MEASURE_ALL || c->open_max == 0 || c->open_max > PEL_BLOBS_OPEN_LIMIT ||
+        c->measure > PEL_MEASURE_ALL || (unsigned)c->backend >= PEL_BACKEND_COUNT ||
+        c->open_max == 0 || c->open_max > PEL_BLOBS_OPEN_LIMIT ||
         (c->measure != 0 && !c->measurer) ||
         ((c->measure & PEL_MEASURE_COLOR) != 0 && !c->reader)) {
         return PEL_ERR_ARG;
@@ -85,12 +87,43 @@ pel_status pel_blobs_begin(pel_blobs *b, const pel_blobs_config *config)
     }
     *b = zero;
     b->config = *config;
+    b->config.backend = pel_i_row_backend(config->backend);
     b->reach = config->connectivity == 4 ? 0 : 1;
     lay_out(b);
     free_all_slots(b);
     b->runs[0][0] = beyond;
     b->state = STATE_ROWS;
     return PEL_OK;
+}
+
+/* Adds the next row, which was checked. */
+static pel_status add_row(pel_blobs *b, const pel_classifier *classifier, pel_crow *row,
+                          uint8_t *labels)
+{
+    const uint16_t count = pel_i_classify_runs(classifier, row, b->config.width, b->config.backend,
+                                               labels, pel_i_blobs_edges(b));
+
+    row->range = classifier->range; /* RGB is read in the range of the classes */
+    return pel_i_blobs_join(b, count, labels, row);
+}
+
+pel_status pel_blobs_pixels(pel_blobs *b, uint16_t y, const pel_classifier *classifier,
+                            const pel_crow *pixels, uint8_t *labels)
+{
+    pel_status status = b ? pel_i_classify_check(classifier, pixels, labels) : PEL_ERR_ARG;
+    pel_crow row;
+
+    if (status == PEL_OK) {
+        status = pel_i_blobs_check_row(b, y, labels);
+    }
+    if (status != PEL_OK) {
+        return status;
+    }
+    if (pel_color_width(pixels->format, pixels->width) != b->config.width) {
+        return PEL_ERR_FORMAT;
+    }
+    row = *pixels;
+    return add_row(b, classifier, &row, labels);
 }
 
 pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
@@ -122,9 +155,7 @@ pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
     status = pel_blobs_begin(b, config);
     for (uint16_t y = 0; y < config->height && status >= 0; y++) {
         row = pel_cview_row(view, y);
-        (void)pel_classify_row(classifier, &row, labels);
-        row.range = classifier->range; /* RGB is read in the range of the classes */
-        status = pel_blobs_row(b, y, labels, &row);
+        status = add_row(b, classifier, &row, labels);
     }
     return status < 0 ? status : pel_blobs_end(b, count);
 }

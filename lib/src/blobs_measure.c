@@ -116,13 +116,14 @@ static pel_status check_pixels(const pel_blobs *b, const pel_crow *pixels)
                                                                              : PEL_ERR_FORMAT;
 }
 
-pel_status pel_blobs_measure(pel_blobs *b, const uint8_t *labels, const pel_crow *pixels)
+pel_status pel_blobs_measure(pel_blobs *b, uint16_t count, const uint8_t *labels,
+                             const pel_crow *pixels)
 {
     const pel_status status =
         labels && (b->config.measure & PEL_MEASURE_COLOR) ? check_pixels(b, pixels) : PEL_OK;
 
     if (status == PEL_OK) {
-        join_row(b, labels, pixels);
+        join_row(b, count, labels, pixels);
     }
     return status;
 }

@@ -2,7 +2,7 @@
 
 #include "classifier.h"
 #include "format.h"
-#include "row/row_select.h"
+#include "row/row_select_runs.h"
 
 /* ---- Boxes and tables ---------------------------------------------------------------------- */
 
@@ -62,12 +62,17 @@ static pel_status check_classifier(const pel_classifier *classifier)
 
 /* ---- Rows ---------------------------------------------------------------------------------- */
 
+static pel_row_boxes row_boxes(const pel_classifier *classifier)
+{
+    const pel_row_boxes boxes = {classifier->boxes->y, classifier->boxes->u, classifier->boxes->v};
+    return boxes;
+}
+
 static void classify_yuv(const pel_classifier *classifier, const uint8_t *y, const uint8_t *u,
                          const uint8_t *v, uint16_t count, uint8_t *labels)
 {
     if (classifier->boxes) {
-        const pel_row_boxes boxes = {classifier->boxes->y, classifier->boxes->u,
-                                     classifier->boxes->v};
+        const pel_row_boxes boxes = row_boxes(classifier);
         pel_row_classify(&boxes, y, u, v, count, labels);
     } else {
         const pel_row_lut lut = row_lut(&classifier->lut);
@@ -117,30 +122,60 @@ pel_status pel_i_classify_check(const pel_classifier *classifier, const pel_crow
                : PEL_ERR_FORMAT;
 }
 
-pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *row, uint8_t *labels)
+static void classify_in_place(const pel_classifier *classifier, const pel_crow *row, uint16_t width,
+                              uint8_t *labels)
 {
-    const pel_status status = pel_i_classify_check(classifier, row, labels);
-    const pel_classify_plan *plan;
-    uint16_t width;
+    const pel_classify_plan *const plan = classifier->plan;
+    const pel_row_boxes boxes = row_boxes(classifier);
+    const pel_row_pairs pairs = pel_i_pairs(pel_i_format(row->format), row);
 
-    if (status != PEL_OK) {
-        return status;
-    }
-    width = pel_color_width(row->format, row->width);
-    plan = classifier->plan;
+    pel_i_row_classify_pairs(plan ? plan->backend : PEL_ROW_BUILT_IN, plan ? plan->nibbles : NULL,
+                             &boxes, &pairs, width, labels);
+}
+
+static void classify(const pel_classifier *classifier, const pel_crow *row, uint16_t width,
+                     uint8_t *labels)
+{
     if (works_in_place(classifier, row)) {
-        const pel_row_boxes boxes = {classifier->boxes->y, classifier->boxes->u,
-                                     classifier->boxes->v};
-        const pel_row_pairs pairs = pel_i_pairs(pel_i_format(row->format), row);
-        pel_i_row_classify_pairs(plan ? plan->backend : PEL_ROW_BUILT_IN,
-                                 plan ? plan->nibbles : NULL, &boxes, &pairs, width, labels);
+        classify_in_place(classifier, row, width, labels);
     } else {
         classify_in_chunks(classifier, row, width, labels);
     }
     if (classifier->relabel) {
         pel_row_map(labels, width, classifier->relabel, labels);
     }
-    return PEL_OK;
+}
+
+pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *row, uint8_t *labels)
+{
+    const pel_status status = pel_i_classify_check(classifier, row, labels);
+
+    if (status == PEL_OK) {
+        classify(classifier, row, pel_color_width(row->format, row->width), labels);
+    }
+    return status;
+}
+
+/* What does both at once takes more code than one after the other. */
+#if defined(__OPTIMIZE_SIZE__)
+enum { AT_ONCE = 0 };
+#else
+enum { AT_ONCE = 1 };
+#endif
+
+uint16_t pel_i_classify_runs(const pel_classifier *classifier, const pel_crow *row, uint16_t width,
+                             pel_backend backend, uint8_t *labels, uint16_t *edges)
+{
+    if (AT_ONCE && works_in_place(classifier, row) && !classifier->relabel) {
+        const pel_classify_plan *const plan = classifier->plan;
+        const pel_row_boxes boxes = row_boxes(classifier);
+        const pel_row_pairs pairs = pel_i_pairs(pel_i_format(row->format), row);
+        return pel_i_row_classify_runs(plan ? plan->backend : PEL_ROW_BUILT_IN,
+                                       plan ? plan->nibbles : NULL, &boxes, &pairs, width, labels,
+                                       edges);
+    }
+    classify(classifier, row, width, labels);
+    return pel_i_row_find_runs(backend, labels, width, edges);
 }
 
 uint8_t pel_classify_color(const pel_classifier *classifier, uint8_t y, uint8_t u, uint8_t v)

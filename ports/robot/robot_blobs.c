@@ -12,7 +12,7 @@
 #include "robot_classes.c"
 #include "robot_target.h"
 
-/* More open blobs cost 68 bytes of RAM each; what does not fit is counted in the frame's end. */
+/* More open blobs cost 72 bytes of RAM each; what does not fit is counted in the frame's end. */
 #ifndef ROBOT_OPEN_MAX
 #define ROBOT_OPEN_MAX 48
 #endif
@@ -120,8 +120,7 @@ static void end_frame(struct robot *r, uint8_t state)
 /* Negative: this frame is spoilt. */
 static pel_status add_line(struct robot *r, const port_line_info *line)
 {
-    const pel_status status = pel_classify_row(&r->classifier, &line->row, r->labels);
-    return status < 0 ? status : pel_blobs_row(&r->blobs, line->y, r->labels, &line->row);
+    return pel_blobs_pixels(&r->blobs, line->y, &r->classifier, &line->row, r->labels);
 }
 
 static void take_line(struct robot *r, const port_line_info *line)

@@ -75,14 +75,11 @@ static pel_status begin_frame(void)
 static pel_status take_line(const port_line_info *line)
 {
     pel_classifier classifier = {0};
-    pel_status status = line->y == 0 ? begin_frame() : PEL_OK;
+    const pel_status status = line->y == 0 ? begin_frame() : PEL_OK;
     classifier.boxes = &boxes;
     classifier.range = CAMERA_RANGE;
     classifier.reader = pel_crow_read_yuv; /* of any camera; not needed for YCbCr */
-    if (status == PEL_OK) {
-        status = pel_classify_row(&classifier, &line->row, labels);
-    }
-    return status < 0 ? status : pel_blobs_row(&blobs, line->y, labels, &line->row);
+    return status < 0 ? status : pel_blobs_pixels(&blobs, line->y, &classifier, &line->row, labels);
 }
 
 int main(void)

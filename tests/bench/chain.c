@@ -74,15 +74,7 @@ static void chain_init(chain *c, const char *input, unsigned measure)
 
 static pel_status run_chain(chain *c)
 {
-    pel_status worst = pel_blobs_begin(&c->blobs, &c->config);
-    for (uint16_t y = 0; y < HEIGHT && worst >= 0; y++) {
-        const pel_crow row = pel_cview_row(&c->view, y);
-        worst = pel_classify_row(&c->classifier, &row, labels);
-        if (worst >= 0) {
-            worst = pel_blobs_row(&c->blobs, y, labels, NULL);
-        }
-    }
-    return worst < 0 ? worst : pel_blobs_end(&c->blobs, &c->count);
+    return pel_blobs_frame(&c->blobs, &c->config, &c->classifier, &c->view, labels, &c->count);
 }
 
 __attribute__((noinline)) pel_status measured_chain(chain *c)

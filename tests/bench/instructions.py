@@ -27,7 +27,7 @@ GROWTH_ALLOWED = 0.03
 MARKERS = ("<!-- bench begin -->", "<!-- bench end -->")
 
 # The stages of --stages: functions whose calls, with all that they call, make the stage.
-STAGES = ("pel_classify_row", "pel_row_find_runs", "pel_blobs_row", "pel_blobs_end")
+STAGES = ("pel_i_classify_runs", "pel_i_blobs_join", "pel_blobs_end")
 
 
 class Input:
@@ -118,9 +118,8 @@ def stages_of(out, pixels):
             name = found.group(2)
             count = int(found.group(1).replace(",", ""))
             cost[name] = max(cost.get(name, 0), count)  # lists callers and callees apart
-    runs = cost.get("pel_row_find_runs", 0)
-    rows = {"classify": cost.get("pel_classify_row", 0), "find_runs": runs,
-            "join": cost.get("pel_blobs_row", 0) - runs, "end": cost.get("pel_blobs_end", 0)}
+    rows = {"runs": cost.get("pel_i_classify_runs", 0), "join": cost.get("pel_i_blobs_join", 0),
+            "end": cost.get("pel_blobs_end", 0)}
     return {stage: count / pixels for stage, count in rows.items()}
 
 
@@ -260,7 +259,7 @@ def check_readme(tally, path, rows, names):
 
 
 def print_stages(rows):
-    names = ("classify", "find_runs", "join", "end")
+    names = ("runs", "join", "end")
     print(f"\n{'input':<8}{'level':<7}" + "".join(f"{name:>11}" for name in names))
     for r in rows:
         for level in LEVELS:

@@ -83,7 +83,7 @@ static void begin_choices(void)
 {
     pel_blobs_config config;
     unsigned value;
-    check_group("begin: every connectivity and every measure byte");
+    check_group("begin: every connectivity, measure byte and backend");
     for (value = 0; value < 256; value++) {
         config = good_config(PEL_MEASURE_ALL);
         config.measure = 0;
@@ -101,6 +101,9 @@ static void begin_choices(void)
         config.measure = (uint8_t)value;
         config.measurer = NULL;
         expect_begin(config, value == 0 ? PEL_OK : PEL_ERR_ARG, "no measurer");
+        config = good_config(0);
+        config.backend = (pel_backend)value;
+        expect_begin(config, value < PEL_BACKEND_COUNT ? PEL_OK : PEL_ERR_ARG, "backend");
     }
 }
 

@@ -422,6 +422,19 @@ static void test_a_frame_from_pixels_to_mean_colour(void)
     TEST_ASSERT_EQUAL_UINT8(201, found[0].mean_v);
     TEST_ASSERT_EQUAL_UINT8(PEL_EDGE_LEFT | PEL_EDGE_TOP | PEL_EDGE_BOTTOM, found[0].edges);
 
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_blobs_begin(&blobs, &config)); /* row by row */
+    for (uint16_t y = 0; y < 2; y++) {
+        const pel_crow row = pel_cview_row(&view, y);
+        TEST_ASSERT_EQUAL_INT(PEL_OK, pel_blobs_pixels(&blobs, y, &classifier, &row, labels));
+        TEST_ASSERT_EQUAL_INT(PEL_ERR_ORDER,
+                              pel_blobs_pixels(&blobs, y, &classifier, &row, labels));
+    }
+    TEST_ASSERT_EQUAL_INT(PEL_OK, pel_blobs_end(&blobs, &count));
+    TEST_ASSERT_EQUAL_UINT32(1, count);
+    TEST_ASSERT_EQUAL_UINT32(4, found[0].area);
+    assert_box(0, 2, 0, 2, &found[0]);
+    TEST_ASSERT_EQUAL_UINT8(152, found[0].mean_y);
+
     config.width = 3; /* not the size of the view */
     count = 77;
     TEST_ASSERT_EQUAL_INT(PEL_ERR_RANGE,

@@ -150,6 +150,7 @@ pel_blob_accept pel_blob_shape_passes;
 
 /* ---- Finding blobs ------------------------------------------------------------------------- */
 
+#define pel_blobs_pixels PEL_FOR_CLASSES(pel_blobs_pixels)
 #define pel_blobs_frame PEL_FOR_CLASSES(pel_blobs_frame)
 
 /* A run: the stretch x0 <= x < x1 of one row that has one label. */
@@ -191,8 +192,8 @@ uint16_t pel_find_runs(const uint8_t *labels, uint16_t width, pel_run *runs);
 uint32_t pel_blobs_bytes(uint16_t width, uint16_t open_max, unsigned measure);
 
 /* A row joins the blobs, and more is measured than without; not to be called by programs. */
-typedef pel_status pel_blobs_measurer(struct pel_blobs *blobs, const uint8_t *labels,
-                                      const pel_crow *pixels);
+typedef pel_status pel_blobs_measurer(struct pel_blobs *blobs, uint16_t count,
+                                      const uint8_t *labels, const pel_crow *pixels);
 pel_blobs_measurer pel_blobs_measure;
 
 /*
@@ -206,6 +207,7 @@ typedef struct pel_blobs_config {
                              32 serves most robots */
     uint8_t connectivity; /* 8 (or 0): diagonal neighbours touch; 4: they do not */
     uint8_t measure;      /* PEL_MEASURE_... bits; they need `measurer` */
+    pel_backend backend;  /* what finds runs in labels; resolved by begin */
     void *work;           /* PEL_BLOBS_BYTES(width, open_max, measure), aligned to 8 bytes; in use
                              from begin to end, may be shared between frames and finders */
     size_t work_bytes;
@@ -273,8 +275,8 @@ typedef struct pel_blobs {
  * Starts a frame; any frame in progress is forgotten. The config is copied.
  *
  * PEL_ERR_ARG: null pointer, misaligned work, finder, work and results that overlap, connectivity
- * not 0, 4, 8, unknown measure bits, a measure without measurer, colour without a reader, open_max
- * out of range.
+ * not 0, 4, 8, unknown measure bits or backend, a measure without measurer, colour without a
+ * reader, open_max out of range.
  * PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX, or so large that a 32-bit sum could overflow
  * (width * width * height or width * height * height over 2^33: 1920 x 1080 and 2048 x 2048 are
  * allowed, 2592 x 1944 is not). PEL_ERR_SPACE: work_bytes too small.
@@ -293,6 +295,16 @@ pel_status pel_blobs_begin(pel_blobs *blobs, const pel_blobs_config *config);
  */
 pel_status pel_blobs_row(pel_blobs *blobs, uint16_t y, const uint8_t *labels,
                          const pel_crow *pixels);
+
+/*
+ * Adds row y straight from its pixels: does what pel_classify_row and pel_blobs_row do, in fewer
+ * steps. `labels` is scratch, colour width bytes: what it holds afterwards is of no use. For
+ * PEL_MEASURE_COLOR, RGB is read in the range of the classifier.
+ *
+ * Statuses of these two; PEL_ERR_FORMAT also where the colour width is not that of the frame.
+ */
+pel_status pel_blobs_pixels(pel_blobs *blobs, uint16_t y, const pel_classifier *classifier,
+                            const pel_crow *pixels, uint8_t *labels);
 
 /*
  * Ends the frame: closes what is open and sorts the results, largest first (see pel_blobs_sort).

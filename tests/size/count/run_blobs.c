@@ -90,9 +90,7 @@ static void begin_chain(const job *j)
 
 static uint32_t push_chain(uint16_t y)
 {
-    if (done(pel_classify_row(&classifier, &row.crow, labels))) {
-        done(pel_blobs_row(&blobs, y, labels, &row.crow));
-    }
+    done(pel_blobs_pixels(&blobs, y, &classifier, &row.crow, labels));
     return 0;
 }
 

@@ -27,8 +27,7 @@ static void one_frame(const pel_classifier *classifier, const pel_blobs_config *
         while (camera_line_ready == 0) {
         }
         const pel_crow row = pel_crow_packed(camera_line, PEL_YUYV, PEL_RANGE_FULL, WIDTH);
-        (void)pel_classify_row(classifier, &row, labels);
-        (void)pel_blobs_row(&blobs, y, labels, NULL);
+        (void)pel_blobs_pixels(&blobs, y, classifier, &row, labels);
     }
     (void)pel_blobs_end(&blobs, &count);
     if (count != 0) {

@@ -120,10 +120,7 @@ static pel_status find_blobs(uint32_t *count)
     for (uint16_t y = 0; y < HEIGHT && status >= 0; y++) {
         const pel_crow row = pel_crow_packed(line, PEL_YUYV, PEL_RANGE_FULL, WIDTH);
         next_line(y);
-        status = pel_classify_row(&classifier, &row, labels);
-        if (status >= 0) {
-            status = pel_blobs_row(&blobs, y, labels, NULL);
-        }
+        status = pel_blobs_pixels(&blobs, y, &classifier, &row, labels);
     }
     return status < 0 ? status : pel_blobs_end(&blobs, count);
 }
