@@ -47,8 +47,9 @@ typedef struct pel_blob_slot slot;
 /* Ends the lists of slots. */
 #define END 0xFFFFu
 
-/* The run behind the last of a row, BEYOND - 1 .. BEYOND: every search stops there. */
-enum { BEYOND = 0x7FFF };
+/* The run behind the last of a row, BEYOND - 1 .. BEYOND: every search stops there. One more still
+ * fits an int of 16 bits. */
+enum { BEYOND = 0x7FFE };
 
 enum { STATE_IDLE, STATE_ROWS };
 

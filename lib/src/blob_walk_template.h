@@ -203,9 +203,9 @@ static int walk(pel_blobs *b, size_t first, const pel_run *above, const uint8_t 
     int late = 0;
 
     for (;; run++, place++) {
-        const int from = run->x0 - reach, to = run->x1 + reach;
+        const int from = (int)run->x0 - reach, to = (int)run->x1 + reach; /* from may be -1 */
         unsigned id = NO_BLOB, label;
-        for (; above->x1 <= from; above++, place_above++) {
+        for (; (int)above->x1 <= from; above++, place_above++) {
             const unsigned other = *place_above;
             if (other < LOST && slots[other].newest == place_of(place_above)) {
                 close_blob(b, other);
@@ -215,7 +215,7 @@ static int walk(pel_blobs *b, size_t first, const pel_run *above, const uint8_t 
             return late;
         }
         label = labels[run->x0];
-        for (size_t k = 0; above[k].x0 < to; k++) {
+        for (size_t k = 0; (int)above[k].x0 < to; k++) {
             const unsigned other = place_above[k];
             if (label_of_id(slots, other) == label) {
                 id = id == NO_BLOB && other < LOST && slots[other].parent == other
