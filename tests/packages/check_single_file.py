@@ -16,6 +16,7 @@ SANITIZE = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 HOST_FLAGS = {"x86_64": ([], ["-mssse3"], ["-mavx2"])}
 CHIPS = {"Cortex-M4": ("arm-none-eabi-", ["-mcpu=cortex-m4", "-mthumb"]),
          "Cortex-M55": ("arm-none-eabi-", ["-mcpu=cortex-m55", "-mthumb", "-mfloat-abi=hard"]),
+         "AArch64": ("aarch64-linux-gnu-", []),
          "RV32IMC": ("riscv64-unknown-elf-", ["-march=rv32imc", "-mabi=ilp32"])}
 # What a compiler may call by itself.
 HELPERS = ("__aeabi_", "__gnu_", "__clz", "__ctz", "__div", "__udiv", "__mod", "__umod", "__mul",
