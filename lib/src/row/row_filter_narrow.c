@@ -1,9 +1,10 @@
 #include "row/row_filter_narrow.h"
 
 #include "row/row_filter_x86.h"
+#include "row/row_mve.h"
 #include "row/row_neon.h"
 
-#if defined(PEL_ROW_FILTER_X86) || defined(PEL_ROW_NEON)
+#if defined(PEL_ROW_FILTER_X86) || defined(PEL_ROW_NEON) || PEL_ROW_MVE
 
 /* Sums of pixels times taps: -255 * negative .. 255 * positive. */
 typedef struct reach {

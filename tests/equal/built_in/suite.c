@@ -15,7 +15,7 @@
 
 enum { WIDTH_MAX = 328, SHORT_MAX = 72, OFFSETS = 4, STYLES = 6, GUARD = 16, CANARY = 0xA5 };
 
-static uint8_t bytes[3][OFFSETS + 4 * WIDTH_MAX], plain[4 * WIDTH_MAX];
+static uint8_t bytes[5][OFFSETS + 4 * WIDTH_MAX], plain[4 * WIDTH_MAX];
 static uint8_t room[GUARD + OFFSETS + 4 * WIDTH_MAX + GUARD];
 static uint16_t plain_edges[2 * (WIDTH_MAX + 1)], fast_edges[2 * (WIDTH_MAX + 1) + GUARD];
 static pel_boxes classes;
@@ -50,7 +50,7 @@ static void draw(unsigned style)
     uint8_t value = 0;
     unsigned left = 0;
 
-    for (unsigned row = 0; row < 3; row++) {
+    for (unsigned row = 0; row < 5; row++) {
         for (unsigned x = 0; x < sizeof bytes[0]; x++) {
             const uint32_t r = random_bits();
             if (left == 0) {
@@ -124,7 +124,7 @@ static void visit(void (*compare)(uint16_t width, unsigned offset))
 
 /* ---- From pixels to runs ------------------------------------------------------------------- */
 
-/* The four orders of packed 4:2:2, both of NV12, I420 and gray, and pairs that are none of these. */
+/* The four orders of packed 4:2:2, both of NV12, I420, gray, and pairs that are none of these. */
 enum { LAYOUTS = 9 };
 
 static pel_row_pairs pairs_of(unsigned layout, unsigned offset)
@@ -193,10 +193,167 @@ static void test_runs_of_pixels(void)
     visit(compare_runs);
 }
 
+/* ---- Neighbourhoods ------------------------------------------------------------------------ */
+
+/* A column on either side of the results, two for radius 2, may be read. */
+enum { MARGIN = 2 };
+
+typedef struct window {
+    const uint8_t *rows[5];
+} window;
+
+static window window_at(unsigned offset)
+{
+    window w;
+    for (unsigned i = 0; i < 5; i++) {
+        w.rows[i] = bytes[i] + offset + MARGIN;
+    }
+    return w;
+}
+
+#define COMPARE_BYTES(name, best)                                                                  \
+    static void compare_##name(uint16_t width, unsigned offset)                                    \
+    {                                                                                              \
+        const window w = window_at(offset);                                                        \
+        pel_row_##name(w.rows, width, plain);                                                      \
+        best(w.rows, width, guarded(offset));                                                      \
+        expect_guarded(plain, offset, width);                                                      \
+    }                                                                                              \
+    static void test_##name(void)                                                                  \
+    {                                                                                              \
+        visit(compare_##name);                                                                     \
+    }
+
+/* Results of 16 bits, always where their type may lie. */
+#define COMPARE_WORDS(name, best)                                                                  \
+    static void compare_##name(uint16_t width, unsigned offset)                                    \
+    {                                                                                              \
+        const window w = window_at(offset);                                                        \
+        pel_row_##name(w.rows, width, plain_words);                                                \
+        fill(fast_words, sizeof fast_words);                                                       \
+        best(w.rows, width, fast_words);                                                           \
+        expect_words(width);                                                                       \
+    }                                                                                              \
+    static void test_##name(void)                                                                  \
+    {                                                                                              \
+        visit(compare_##name);                                                                     \
+    }
+
+static int16_t plain_words[WIDTH_MAX], fast_words[WIDTH_MAX + GUARD];
+
+static void expect_words(uint16_t width)
+{
+    if (width > 0) {
+        TEST_ASSERT_EQUAL_INT16_ARRAY(plain_words, fast_words, width);
+    }
+    for (unsigned i = width; i < width + (unsigned)GUARD; i++) {
+        TEST_ASSERT_EQUAL_HEX16(0xA5A5, (uint16_t)fast_words[i]);
+    }
+}
+
+COMPARE_BYTES(gauss3, PEL_BEST_GAUSS3)
+COMPARE_BYTES(box3, PEL_BEST(box3))
+COMPARE_BYTES(binomial5, PEL_BEST(binomial5))
+COMPARE_BYTES(gradient_abs, PEL_BEST_GRADIENT_ABS)
+COMPARE_BYTES(median3, PEL_BEST(median3))
+COMPARE_BYTES(min3, PEL_BEST(min3))
+COMPARE_BYTES(max3, PEL_BEST(max3))
+COMPARE_BYTES(erode_labels3, PEL_BEST(erode_labels3))
+COMPARE_BYTES(dilate_labels3, PEL_BEST(dilate_labels3))
+COMPARE_WORDS(sobel_x, PEL_BEST(sobel_x))
+COMPARE_WORDS(sobel_y, PEL_BEST(sobel_y))
+COMPARE_WORDS(gradient_abs_s16, PEL_BEST(gradient_abs_s16))
+
+static void compare_copies(uint16_t width, unsigned offset)
+{
+    PEL_BEST_COPY(bytes[0] + MARGIN, width, guarded(offset));
+    expect_guarded(bytes[0] + MARGIN, offset, width);
+}
+
+static void test_copies(void)
+{
+    visit(compare_copies);
+}
+
+/* ---- Kernels with taps --------------------------------------------------------------------- */
+
+static int8_t tap[25];
+static pel_row_scale scale;
+
+/* Taps of a size whose sums fit 16 bits, nearly do, do not, and the extremes; scales as a filter
+ * makes them of a divisor, a shift, a bias and the wish for absolute values. */
+static void draw_taps(void)
+{
+    static const uint8_t sizes[] = {1, 5, 12, 20, 60, 127};
+    const uint32_t kind = random_bits() % 8, how = random_bits() % 4;
+    const uint32_t divisor = how == 0  ? 1
+                             : how < 3 ? 1 + random_bits() % 300
+                                       : 1 + random_bits() % 32767;
+    const uint32_t shift = how == 1 ? 0 : random_bits() % (how < 3 ? 9 : 16),
+                   whole = divisor << shift;
+    const uint32_t more = 816000 / whole + 1;
+    const int32_t bias = random_bits() % 2 == 0 ? 0 : (int32_t)(random_bits() % 65536) - 32768;
+
+    for (unsigned i = 0; i < 25; i++) {
+        const uint32_t r = random_bits();
+        tap[i] = (int8_t)(kind < 6    ? (int32_t)(r % (2u * sizes[kind] + 1)) - sizes[kind]
+                          : kind == 6 ? (int32_t)(r % 11)
+                          : r & 1     ? -128
+                                      : 127);
+    }
+    scale.start = more * whole + whole / 2;
+    scale.flip = random_bits() % 3 == 0 ? scale.start : 0;
+    scale.divisor = divisor == 1 ? 0 : whole;
+    scale.shift = (uint8_t)shift;
+    scale.bias = (how == 2 ? bias / 256 : bias) - (int32_t)more;
+}
+
+static void compare_kernels(uint16_t width, unsigned offset)
+{
+    const window w = window_at(offset);
+
+    for (unsigned i = 0; i < 8; i++) {
+        draw_taps();
+        pel_row_kernel3(w.rows, tap, &scale, width, plain);
+        PEL_BEST_KERNEL3(w.rows, tap, &scale, width, guarded(offset));
+        expect_guarded(plain, offset, width);
+        pel_row_kernel5(w.rows, tap, &scale, width, plain);
+        PEL_BEST(kernel5)(w.rows, tap, &scale, width, guarded(offset));
+        expect_guarded(plain, offset, width);
+        fill(fast_words, sizeof fast_words);
+        pel_row_kernel3_s16(w.rows, tap, &scale, width, plain_words);
+        PEL_BEST(kernel3_s16)(w.rows, tap, &scale, width, fast_words);
+        expect_words(width);
+        fill(fast_words, sizeof fast_words);
+        pel_row_kernel5_s16(w.rows, tap, &scale, width, plain_words);
+        PEL_BEST(kernel5_s16)(w.rows, tap, &scale, width, fast_words);
+        expect_words(width);
+    }
+}
+
+static void test_kernels(void)
+{
+    visit(compare_kernels);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_labels);
     RUN_TEST(test_runs_of_pixels);
+    RUN_TEST(test_gauss3);
+    RUN_TEST(test_box3);
+    RUN_TEST(test_binomial5);
+    RUN_TEST(test_gradient_abs);
+    RUN_TEST(test_median3);
+    RUN_TEST(test_min3);
+    RUN_TEST(test_max3);
+    RUN_TEST(test_erode_labels3);
+    RUN_TEST(test_dilate_labels3);
+    RUN_TEST(test_sobel_x);
+    RUN_TEST(test_sobel_y);
+    RUN_TEST(test_gradient_abs_s16);
+    RUN_TEST(test_copies);
+    RUN_TEST(test_kernels);
     return UNITY_END();
 }
