@@ -90,26 +90,65 @@ INLINE uint16x8_t without_sign(int16x8_t lanes)
 
 void pel_row_copy_mve(const uint8_t *restrict src, uint16_t count, uint8_t *restrict dst)
 {
-    const uint8_t *const end = src + (count & ~15u);
-
-    while (src != end) {
-        vst1q_u8(dst, vld1q_u8(src));
-        src += BYTES;
-        dst += BYTES;
+    for (unsigned left = count / (4u * BYTES); left != 0; left--) {
+        __asm__ volatile("vldrb.8 q0, [%0], #16\n\tvldrb.8 q1, [%0], #16\n\t"
+                         "vldrb.8 q2, [%0], #16\n\tvldrb.8 q3, [%0], #16\n\t"
+                         "vstrb.8 q0, [%1], #16\n\tvstrb.8 q1, [%1], #16\n\t"
+                         "vstrb.8 q2, [%1], #16\n\tvstrb.8 q3, [%1], #16"
+                         : "+r"(src), "+r"(dst)
+                         :
+                         : "q0", "q1", "q2", "q3", "memory");
     }
-    if ((count & 15) != 0) {
-        pel_row_copy(src, count & 15, dst);
+    if ((count & 63) != 0) {
+        pel_row_copy(src, count & 63, dst);
     }
 }
 
 /* ---- Kernels with taps --------------------------------------------------------------------- */
 
-/* Sums modulo 2^16 with the taps of a row; what is before the first pixel is at -radius. */
-INLINE uint16x8_t add_three(uint16x8_t sums, const uint8_t *row, const int16_t *tap)
+/* The outer two taps of a row in one register, and the middle one. */
+typedef struct taps3 {
+    uint32_t outer;
+    int32_t middle;
+} taps3;
+
+static taps3 taps_of_row(const int8_t *tap)
 {
-    sums = vmlaq_n_u16(sums, vldrbq_u16(row - 1), (uint16_t)tap[0]);
-    sums = vmlaq_n_u16(sums, vldrbq_u16(row), (uint16_t)tap[1]);
-    return vmlaq_n_u16(sums, vldrbq_u16(row + 1), (uint16_t)tap[2]);
+    taps3 taps;
+
+    taps.outer = (uint32_t)(tap[0] & 0xFFFF) | (uint32_t)tap[2] << 16;
+    taps.middle = tap[1];
+    return taps;
+}
+
+typedef struct sums16 {
+    uint16x8_t near, far;
+} sums16;
+
+/* To 16 sums modulo 2^16 the taps of a row, which moves on. Compilers keep nine taps in memory. */
+INLINE sums16 add_three(sums16 sums, const uint8_t **row, taps3 taps)
+{
+    uint16x8_t pixels, others;
+    uint32_t right;
+
+    __asm__("vldrb.u16 %q[pixels], [%[row], #-1]\n\t"
+            "vldrb.u16 %q[others], [%[row], #7]\n\t"
+            "vmla.u16 %q[near], %q[pixels], %[left]\n\t"
+            "lsr %[right], %[left], #16\n\t"
+            "vmla.u16 %q[far], %q[others], %[left]\n\t"
+            "vldrb.u16 %q[pixels], [%[row], #1]\n\t"
+            "vldrb.u16 %q[others], [%[row], #9]\n\t"
+            "vmla.u16 %q[near], %q[pixels], %[right]\n\t"
+            "vmla.u16 %q[far], %q[others], %[right]\n\t"
+            "vldrb.u16 %q[others], [%[row], #8]\n\t"
+            "vldrb.u16 %q[pixels], [%[row]], #16\n\t"
+            "vmla.u16 %q[far], %q[others], %[middle]\n\t"
+            "vmla.u16 %q[near], %q[pixels], %[middle]"
+            : [near] "+t"(sums.near), [far] "+t"(sums.far), [row] "+r"(*row),
+              [pixels] "=&t"(pixels), [others] "=&t"(others), [right] "=&r"(right)
+            : [left] "r"(taps.outer), [middle] "r"(taps.middle)
+            : "memory");
+    return sums;
 }
 
 INLINE uint16x8_t add_five(uint16x8_t sums, const uint8_t *row, const int8_t *tap)
@@ -138,37 +177,28 @@ INLINE int16x8_t result_of(uint16x8_t sums, const pel_row_narrow *narrow)
 INLINE void *put_results(void *out, int16x8_t results, int as_bytes)
 {
     if (as_bytes) {
-        const uint8x16_t limited = vqmovunbq_s16(vreinterpretq_u8_s16(results), results);
-        vstrbq_u16(out, vreinterpretq_u16_u8(limited));
+        __asm__("vqmovunb.s16 %q0, %q0" : "+t"(results)); /* in place, which saves a copy */
+        vstrbq_u16(out, without_sign(results));
         return (uint8_t *)out + WORDS;
     }
     vst1q_s16(out, results);
     return (int16_t *)out + WORDS;
 }
 
-/* Two vectors in a step: there are more taps than free registers. */
 INLINE void sum_kernel3(const uint8_t *const rows[], const int8_t *tap,
                         const pel_row_narrow *narrow, unsigned count, void *out, int as_bytes)
 {
+    const taps3 upper = taps_of_row(tap), own = taps_of_row(tap + 3), lower = taps_of_row(tap + 6);
     const uint8_t *a = rows[0], *b = rows[1], *c = rows[2];
     const pel_row_narrow copy = *narrow; /* that out cannot alias */
-    int16_t taps[9];
 
-    for (unsigned i = 0; i < 9; i++) {
-        taps[i] = tap[i];
-    }
-    for (unsigned left = count; left != 0; left -= BYTES) {
-        uint16x8_t near = add_three(vdupq_n_u16(0), a, taps);
-        uint16x8_t far = add_three(vdupq_n_u16(0), a + WORDS, taps);
-        near = add_three(near, b, taps + 3);
-        far = add_three(far, b + WORDS, taps + 3);
-        near = add_three(near, c, taps + 6);
-        far = add_three(far, c + WORDS, taps + 6);
-        out = put_results(out, result_of(near, &copy), as_bytes);
-        out = put_results(out, result_of(far, &copy), as_bytes);
-        a += BYTES;
-        b += BYTES;
-        c += BYTES;
+    for (unsigned left = count / BYTES; left != 0; left--) {
+        sums16 sums = {vdupq_n_u16(0), vdupq_n_u16(0)};
+        sums = add_three(sums, &a, upper);
+        sums = add_three(sums, &b, own);
+        sums = add_three(sums, &c, lower);
+        out = put_results(out, result_of(sums.near, &copy), as_bytes);
+        out = put_results(out, result_of(sums.far, &copy), as_bytes);
     }
 }
 
@@ -237,33 +267,46 @@ static uint32_t sum_121(const uint8_t *const rows[], int x)
     return rows[0][x] + 2u * rows[1][x] + rows[2][x];
 }
 
+/*
+ * Two pixels to a lane. Of the columns x + 1 + 2 j and x + 2 + 2 j, in the lower and the upper byte
+ * of lane j, the sums of the second come from upper bytes, those of the first from what these leave
+ * of the sums of whole lanes, modulo 2^16. A result is a pair of columns and the next pair.
+ */
 static void gauss3(const uint8_t *const rows[], unsigned count, uint8_t *restrict out)
 {
-    const uint8_t *const end = out + count;
     const uint8_t *a = rows[0] + 1, *b = rows[1] + 1, *c = rows[2] + 1;
-    uint32_t sum = sum_121(rows, 0), pair = sum_121(rows, -1) + sum;
+    uint32_t column = sum_121(rows, 0), pair = sum_121(rows, -1) + column;
 
-    while (out != end) {
-        const uint16x8_t pairs = with_before(sums_121(a, b, c), &sum);
-        vstrbq_u16(out, vrshrq_n_u16(with_before(pairs, &pair), 4));
-        a += WORDS;
-        b += WORDS;
-        c += WORDS;
-        out += WORDS;
+    for (unsigned left = count / BYTES; left != 0; left--) {
+        const uint8x16_t p = vld1q_u8(a), q = vld1q_u8(b), r = vld1q_u8(c);
+        const uint16x8_t upper = vaddq_u16(vmovltq_u8(p), vmovltq_u8(r));
+        const uint16x8_t second = vmlaq_n_u16(upper, vmovltq_u8(q), 2);
+        const uint16x8_t both = vaddq_u16(vreinterpretq_u16_u8(p), vreinterpretq_u16_u8(r));
+        const uint16x8_t twice = vmlaq_n_u16(both, vreinterpretq_u16_u8(q), 2);
+        const uint16x8_t first = vmlaq_n_u16(twice, second, 0xFF00); /* -256 */
+        const uint16x8_t pair0 = vaddq_u16(first, word_before(second, &column));
+        const uint16x8_t pair1 = vaddq_u16(first, second);
+        const uint16x8_t even = vaddq_u16(word_before(pair1, &pair), pair0);
+        const uint16x8_t odd = vaddq_u16(pair0, pair1);
+        const uint8x16_t low = vrshrnbq_n_u16(vreinterpretq_u8_u16(pair0), even, 4);
+        vst1q_u8(out, vrshrntq_n_u16(low, odd, 4));
+        a += BYTES;
+        b += BYTES;
+        c += BYTES;
+        out += BYTES;
     }
 }
-KERNEL(gauss3, 1, uint8_t, WORDS)
+KERNEL(gauss3, 1, uint8_t, BYTES)
 
 /* n / 9 is n * 7282 >> 16 for all n up to 2299. */
 static void box3(const uint8_t *const rows[], unsigned count, uint8_t *restrict out)
 {
-    const uint8_t *const end = out + count;
     const uint8_t *a = rows[0] + 1, *b = rows[1] + 1, *c = rows[2] + 1;
     const uint16x8_t ninth = vdupq_n_u16(7282);
     uint32_t sum = 0u + a[-1] + b[-1] + c[-1];
     uint32_t two = sum << 16 | (0u + a[-2] + b[-2] + c[-2]);
 
-    while (out != end) {
+    for (unsigned left = count / WORDS; left != 0; left--) {
         const uint16x8_t s = vaddq_u16(vaddq_u16(vldrbq_u16(a), vldrbq_u16(c)), vldrbq_u16(b));
         const uint16x8_t nine = vaddq_u16(with_before(s, &sum), two_words_before(s, &two));
         vstrbq_u16(out, vmulhq_u16(vaddq_n_u16(nine, 4), ninth));
@@ -283,7 +326,6 @@ static uint32_t sum_14641(const uint8_t *const rows[], int x)
 
 static void binomial5(const uint8_t *const rows[], unsigned count, uint8_t *restrict out)
 {
-    const uint8_t *const end = out + count;
     const uint8_t *a = rows[0] + 2, *b = rows[1] + 2, *c = rows[2] + 2;
     const uint8_t *d = rows[3] + 2, *e = rows[4] + 2;
     const uint32_t s2 = sum_14641(rows, -2), s1 = sum_14641(rows, -1);
@@ -291,7 +333,7 @@ static void binomial5(const uint8_t *const rows[], unsigned count, uint8_t *rest
     uint32_t one = sum_14641(rows, 1), two = one + s0, three = two + s0 + s1;
     uint32_t four = three + s0 + 2 * s1 + s2;
 
-    while (out != end) {
+    for (unsigned left = count / WORDS; left != 0; left--) {
         const uint16x8_t outer = vaddq_u16(vldrbq_u16(a), vldrbq_u16(e));
         const uint16x8_t inner = vaddq_u16(vldrbq_u16(b), vldrbq_u16(d));
         const uint16x8_t s = vmlaq_n_u16(vmlaq_n_u16(outer, inner, 4), vldrbq_u16(c), 6);
@@ -339,11 +381,10 @@ INLINE int16x8_t gradient_y(uint16x8_t differences, columns *before)
 
 static void sobel_x(const uint8_t *const rows[], unsigned count, int16_t *restrict out)
 {
-    const int16_t *const end = out + count;
     const uint8_t *a = rows[0] + 1, *b = rows[1] + 1, *c = rows[2] + 1;
     columns before = columns_before(rows);
 
-    while (out != end) {
+    for (unsigned left = count / WORDS; left != 0; left--) {
         const uint16x8_t sums = sums_121(a, b, c);
         vst1q_s16(out, with_sign(vsubq_u16(sums, two_words_before(sums, &before.sums))));
         a += WORDS;
@@ -356,11 +397,10 @@ KERNEL(sobel_x, 1, int16_t, WORDS)
 
 static void sobel_y(const uint8_t *const rows[], unsigned count, int16_t *restrict out)
 {
-    const int16_t *const end = out + count;
     const uint8_t *a = rows[0] + 1, *c = rows[2] + 1;
     columns before = columns_before(rows);
 
-    while (out != end) {
+    for (unsigned left = count / WORDS; left != 0; left--) {
         vst1q_s16(out, gradient_y(vsubq_u16(vldrbq_u16(c), vldrbq_u16(a)), &before));
         a += WORDS;
         c += WORDS;
@@ -383,12 +423,11 @@ INLINE uint16x8_t gradient_sizes(const uint8_t *a, const uint8_t *b, const uint8
 
 static void gradient_abs(const uint8_t *const rows[], unsigned count, uint8_t *restrict out)
 {
-    const uint8_t *const end = out + count;
     const uint8_t *a = rows[0] + 1, *b = rows[1] + 1, *c = rows[2] + 1;
     const uint16x8_t most = vdupq_n_u16(255);
     columns before = columns_before(rows);
 
-    while (out != end) {
+    for (unsigned left = count / WORDS; left != 0; left--) {
         vstrbq_u16(out, vminq_u16(gradient_sizes(a, b, c, &before), most));
         a += WORDS;
         b += WORDS;
@@ -400,11 +439,10 @@ KERNEL(gradient_abs, 1, uint8_t, WORDS)
 
 static void gradient_abs_s16(const uint8_t *const rows[], unsigned count, int16_t *restrict out)
 {
-    const int16_t *const end = out + count;
     const uint8_t *a = rows[0] + 1, *b = rows[1] + 1, *c = rows[2] + 1;
     columns before = columns_before(rows);
 
-    while (out != end) {
+    for (unsigned left = count / WORDS; left != 0; left--) {
         vst1q_s16(out, with_sign(gradient_sizes(a, b, c, &before)));
         a += WORDS;
         b += WORDS;
@@ -469,11 +507,10 @@ static bytes_before ordered_before(const uint8_t *const rows[], unsigned place)
 
 static void min3(const uint8_t *const rows[], unsigned count, uint8_t *restrict out)
 {
-    const uint8_t *const end = out + count;
     const uint8_t *a = rows[0] + 1, *b = rows[1] + 1, *c = rows[2] + 1;
     bytes_before before = ordered_before(rows, 0);
 
-    while (out != end) {
+    for (unsigned left = count / BYTES; left != 0; left--) {
         const uint8x16_t low = vminq_u8(vminq_u8(vld1q_u8(a), vld1q_u8(b)), vld1q_u8(c));
         vst1q_u8(out, smallest_of_three(low, &before));
         a += BYTES;
@@ -486,11 +523,10 @@ KERNEL(min3, 1, uint8_t, BYTES)
 
 static void max3(const uint8_t *const rows[], unsigned count, uint8_t *restrict out)
 {
-    const uint8_t *const end = out + count;
     const uint8_t *a = rows[0] + 1, *b = rows[1] + 1, *c = rows[2] + 1;
     bytes_before before = ordered_before(rows, 2);
 
-    while (out != end) {
+    for (unsigned left = count / BYTES; left != 0; left--) {
         const uint8x16_t high = vmaxq_u8(vmaxq_u8(vld1q_u8(a), vld1q_u8(b)), vld1q_u8(c));
         vst1q_u8(out, largest_of_three(high, &before));
         a += BYTES;
@@ -504,13 +540,12 @@ KERNEL(max3, 1, uint8_t, BYTES)
 /* As in plain C: the largest low, the middle middle and the smallest high of the columns. */
 static void median3(const uint8_t *const rows[], unsigned count, uint8_t *restrict out)
 {
-    const uint8_t *const end = out + count;
     const uint8_t *a = rows[0] + 1, *b = rows[1] + 1, *c = rows[2] + 1;
     bytes_before lows = ordered_before(rows, 0);
     bytes_before middles = ordered_before(rows, 1);
     bytes_before highs = ordered_before(rows, 2);
 
-    while (out != end) {
+    for (unsigned left = count / BYTES; left != 0; left--) {
         const uint8x16_t p = vld1q_u8(a), q = vld1q_u8(b), third = vld1q_u8(c);
         const uint8x16_t smaller = vminq_u8(p, q), larger = vmaxq_u8(p, q);
         const uint8x16_t low = largest_of_three(vminq_u8(smaller, third), &lows);
@@ -536,12 +571,11 @@ INLINE uint8x16_t is_set(uint8x16_t lanes)
 /* Nine labels are equal where the smallest is the largest. */
 static void erode_labels3(const uint8_t *const rows[], unsigned count, uint8_t *restrict out)
 {
-    const uint8_t *const end = out + count;
     const uint8_t *a = rows[0] + 1, *b = rows[1] + 1, *c = rows[2] + 1;
     bytes_before lows = ordered_before(rows, 0);
     bytes_before highs = ordered_before(rows, 2);
 
-    while (out != end) {
+    for (unsigned left = count / BYTES; left != 0; left--) {
         const uint8x16_t p = vld1q_u8(a), q = vld1q_u8(b), third = vld1q_u8(c);
         const uint8x16_t low = smallest_of_three(vminq_u8(vminq_u8(p, q), third), &lows);
         const uint8x16_t high = largest_of_three(vmaxq_u8(vmaxq_u8(p, q), third), &highs);
@@ -558,7 +592,6 @@ KERNEL(erode_labels3, 1, uint8_t, BYTES)
 /* With 1 less 0 is the largest, so that the smallest one is the smallest label. */
 static void dilate_labels3(const uint8_t *const rows[], unsigned count, uint8_t *restrict out)
 {
-    const uint8_t *const end = out + count;
     const uint8_t *a = rows[0] + 1, *b = rows[1] + 1, *c = rows[2] + 1;
     bytes_before before = {255, 255};
 
@@ -567,7 +600,7 @@ static void dilate_labels3(const uint8_t *const rows[], unsigned count, uint8_t 
         before.near = near < before.near ? near : before.near;
         before.far = far < before.far ? far : before.far;
     }
-    while (out != end) {
+    for (unsigned left = count / BYTES; left != 0; left--) {
         const uint8x16_t own = vld1q_u8(b - 1);
         const uint8x16_t p = vsubq_n_u8(vld1q_u8(a), 1), q = vsubq_n_u8(vld1q_u8(b), 1);
         const uint8x16_t low = vminq_u8(vminq_u8(p, q), vsubq_n_u8(vld1q_u8(c), 1));

@@ -19,19 +19,25 @@ static uint32_t magnitude(int8_t tap)
 
 static reach reach_of(const int8_t *taps, unsigned radius)
 {
-    reach r = {0, 0, 1};
+    const int8_t *tap = taps;
+    uint32_t sizes = 0, largest_pair = 0;
+    int32_t sum = 0;
+    reach r;
 
     for (unsigned row = 0; row <= 2 * radius; row++) {
-        uint32_t before = 0; /* the first of a pair */
-        for (unsigned i = 0; i <= 2 * radius; i++) {
-            const uint32_t size = magnitude(*taps);
-            r.pairs_fit &= (i & 1) == 0 || before + size <= 128;
-            r.negative += *taps < 0 ? size : 0;
-            r.positive += *taps < 0 ? 0 : size;
-            before = size;
-            taps++;
+        for (unsigned i = 0; i < radius; i++) {
+            const uint32_t pair = magnitude(tap[0]) + magnitude(tap[1]);
+            largest_pair = pair > largest_pair ? pair : largest_pair;
+            sizes += pair;
+            sum += tap[0] + tap[1];
+            tap += 2;
         }
+        sizes += magnitude(*tap);
+        sum += *tap++;
     }
+    r.positive = (uint32_t)((int32_t)sizes + sum) / 2;
+    r.negative = sizes - r.positive;
+    r.pairs_fit = largest_pair <= 128;
     return r;
 }
 
