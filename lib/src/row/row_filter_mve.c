@@ -151,26 +151,95 @@ INLINE sums16 add_three(sums16 sums, const uint8_t **row, taps3 taps)
     return sums;
 }
 
-INLINE uint16x8_t add_five(uint16x8_t sums, const uint8_t *row, const int8_t *tap)
+/* Taps of a row of five: two in one register, and two, and the middle one. */
+typedef struct taps5 {
+    uint32_t outer, inner;
+    int32_t middle;
+} taps5;
+
+static taps5 taps_of_row5(const int8_t *tap)
 {
-    sums = vmlaq_n_u16(sums, vldrbq_u16(row - 2), (uint16_t)tap[0]);
-    sums = vmlaq_n_u16(sums, vldrbq_u16(row - 1), (uint16_t)tap[1]);
-    sums = vmlaq_n_u16(sums, vldrbq_u16(row), (uint16_t)tap[2]);
-    sums = vmlaq_n_u16(sums, vldrbq_u16(row + 1), (uint16_t)tap[3]);
-    return vmlaq_n_u16(sums, vldrbq_u16(row + 2), (uint16_t)tap[4]);
+    const taps3 three = taps_of_row(tap + 1);
+    taps5 taps;
+
+    taps.outer = (uint32_t)(tap[0] & 0xFFFF) | (uint32_t)tap[4] << 16;
+    taps.inner = three.outer;
+    taps.middle = three.middle;
+    return taps;
 }
 
-/* See row_filter_narrow.h. */
-INLINE int16x8_t result_of(uint16x8_t sums, const pel_row_narrow *narrow)
+INLINE sums16 add_five(sums16 sums, const uint8_t *row, taps5 taps)
 {
-    uint16x8_t n = narrow->absolute ? without_sign(vabsq_s16(with_sign(sums))) : sums;
+    const taps3 three = {taps.inner, taps.middle};
+    uint16x8_t pixels, others;
+    uint32_t right;
 
-    n = vaddq_n_u16(n, narrow->add);
-    if (narrow->factor != 0) {
-        n = vmulhq_u16(n, vdupq_n_u16(narrow->factor));
-        n = vshlq_r_u16(n, -narrow->shift);
+    __asm__("vldrb.u16 %q[pixels], [%[row], #-2]\n\t"
+            "vldrb.u16 %q[others], [%[row], #6]\n\t"
+            "vmla.u16 %q[near], %q[pixels], %[left]\n\t"
+            "lsr %[right], %[left], #16\n\t"
+            "vmla.u16 %q[far], %q[others], %[left]\n\t"
+            "vldrb.u16 %q[pixels], [%[row], #2]\n\t"
+            "vldrb.u16 %q[others], [%[row], #10]\n\t"
+            "vmla.u16 %q[near], %q[pixels], %[right]\n\t"
+            "vmla.u16 %q[far], %q[others], %[right]"
+            : [near] "+t"(sums.near), [far] "+t"(sums.far), [pixels] "=&t"(pixels),
+              [others] "=&t"(others), [right] "=&r"(right)
+            : [row] "r"(row), [left] "r"(taps.outer)
+            : "memory");
+    return add_three(sums, &row, three);
+}
+
+/*
+ * How sums become results: what row_filter_narrow.h says in fewer steps. Sums begin at `first`;
+ * absolute ones begin at 0 and take `add` afterwards. A factor of a power of two is a shift alone,
+ * and what is subtracted goes together with the bias or, where nothing is divided, with `add`.
+ */
+typedef struct finish {
+    uint16_t first, add, factor;
+    int16_t more;
+    int8_t left; /* the shift, negative for one to the right */
+    uint8_t absolute;
+} finish;
+
+static int finish_of(const int8_t *tap, unsigned radius, const pel_row_scale *scale, finish *f)
+{
+    pel_row_narrow narrow;
+    uint16_t factor;
+    int32_t more;
+
+    if (!pel_i_row_narrow(tap, radius, scale, &narrow)) {
+        return 0;
     }
-    return vqaddq_n_s16(with_sign(vsubq_n_u16(n, narrow->subtract)), narrow->bias);
+    factor = narrow.factor;
+    more = factor == 0 ? narrow.bias : (int32_t)narrow.bias - narrow.subtract;
+    f->add = factor == 0 ? (uint16_t)(narrow.add - narrow.subtract) : narrow.add;
+    f->first = narrow.absolute ? 0 : f->add;
+    f->absolute = narrow.absolute;
+    f->more = (int16_t)more;
+    if ((factor & (factor - 1u)) == 0) {
+        f->factor = 0;
+        f->left = factor == 0 ? 0 : (int8_t)(__builtin_ctz(factor) - 16);
+    } else {
+        f->factor = factor;
+        f->left = (int8_t)-narrow.shift;
+    }
+    return more >= -32768;
+}
+
+INLINE sums16 results_of(sums16 sums, const finish *f)
+{
+    if (f->absolute) {
+        sums.near = vaddq_n_u16(without_sign(vabsq_s16(with_sign(sums.near))), f->add);
+        sums.far = vaddq_n_u16(without_sign(vabsq_s16(with_sign(sums.far))), f->add);
+    }
+    if (f->factor != 0) {
+        sums.near = vmulhq_u16(sums.near, vdupq_n_u16(f->factor));
+        sums.far = vmulhq_u16(sums.far, vdupq_n_u16(f->factor));
+    }
+    sums.near = without_sign(vqaddq_n_s16(with_sign(vshlq_r_u16(sums.near, f->left)), f->more));
+    sums.far = without_sign(vqaddq_n_s16(with_sign(vshlq_r_u16(sums.far, f->left)), f->more));
+    return sums;
 }
 
 /* Results as bytes, limited, or as words; where the next ones go. */
@@ -185,61 +254,67 @@ INLINE void *put_results(void *out, int16x8_t results, int as_bytes)
     return (int16_t *)out + WORDS;
 }
 
-INLINE void sum_kernel3(const uint8_t *const rows[], const int8_t *tap,
-                        const pel_row_narrow *narrow, unsigned count, void *out, int as_bytes)
+INLINE void sum_kernel3(const uint8_t *const rows[], const int8_t *tap, const finish *f,
+                        unsigned count, void *out, int as_bytes)
 {
     const taps3 upper = taps_of_row(tap), own = taps_of_row(tap + 3), lower = taps_of_row(tap + 6);
     const uint8_t *a = rows[0], *b = rows[1], *c = rows[2];
-    const pel_row_narrow copy = *narrow; /* that out cannot alias */
+    const finish copy = *f; /* that out cannot alias */
 
     for (unsigned left = count / BYTES; left != 0; left--) {
-        sums16 sums = {vdupq_n_u16(0), vdupq_n_u16(0)};
+        sums16 sums = {vdupq_n_u16(copy.first), vdupq_n_u16(copy.first)};
         sums = add_three(sums, &a, upper);
         sums = add_three(sums, &b, own);
-        sums = add_three(sums, &c, lower);
-        out = put_results(out, result_of(sums.near, &copy), as_bytes);
-        out = put_results(out, result_of(sums.far, &copy), as_bytes);
+        sums = results_of(add_three(sums, &c, lower), &copy);
+        out = put_results(out, with_sign(sums.near), as_bytes);
+        out = put_results(out, with_sign(sums.far), as_bytes);
     }
 }
 
-INLINE void sum_kernel5(const uint8_t *const rows[], const int8_t *tap,
-                        const pel_row_narrow *narrow, unsigned count, void *out, int as_bytes)
+INLINE void sum_kernel5(const uint8_t *const rows[], const int8_t *tap, const finish *f,
+                        unsigned count, void *out, int as_bytes)
 {
-    const pel_row_narrow copy = *narrow;
+    const finish copy = *f;
+    taps5 taps[5];
 
-    for (unsigned x = 0; x < count; x += WORDS) {
-        uint16x8_t sums = add_five(vdupq_n_u16(0), rows[0] + x, tap);
-        sums = add_five(add_five(sums, rows[1] + x, tap + 5), rows[2] + x, tap + 10);
-        sums = add_five(add_five(sums, rows[3] + x, tap + 15), rows[4] + x, tap + 20);
-        out = put_results(out, result_of(sums, &copy), as_bytes);
+    for (unsigned i = 0; i < 5; i++) {
+        taps[i] = taps_of_row5(tap + 5 * i);
+    }
+    for (unsigned x = 0; x < count; x += BYTES) {
+        sums16 sums = {vdupq_n_u16(copy.first), vdupq_n_u16(copy.first)};
+        for (unsigned i = 0; i < 5; i++) {
+            sums = add_five(sums, rows[i] + x, taps[i]);
+        }
+        sums = results_of(sums, &copy);
+        out = put_results(out, with_sign(sums.near), as_bytes);
+        out = put_results(out, with_sign(sums.far), as_bytes);
     }
 }
 
 /* Sums that 16 bits do not hold are for `wide`. */
 #define KERNEL_WITH_TAPS(name, radius, pixel, wide)                                                \
-    static void name(const uint8_t *const rows[], const int8_t *tap, const pel_row_narrow *narrow, \
+    static void name(const uint8_t *const rows[], const int8_t *tap, const finish *f,              \
                      unsigned count, pixel *out)                                                   \
     {                                                                                              \
         if ((radius) == 1) {                                                                       \
-            sum_kernel3(rows, tap, narrow, count, out, sizeof(pixel) == 1);                        \
+            sum_kernel3(rows, tap, f, count, out, sizeof(pixel) == 1);                             \
         } else {                                                                                   \
-            sum_kernel5(rows, tap, narrow, count, out, sizeof(pixel) == 1);                        \
+            sum_kernel5(rows, tap, f, count, out, sizeof(pixel) == 1);                             \
         }                                                                                          \
     }                                                                                              \
     void pel_row_##name##_mve(const uint8_t *const rows[], const int8_t *tap,                      \
                               const pel_row_scale *scale, uint16_t count, pixel *out)              \
     {                                                                                              \
-        const unsigned lanes = (radius) == 1 ? BYTES : WORDS;                                      \
-        const unsigned rest = count % lanes, last = count - lanes;                                 \
-        pel_row_narrow narrow;                                                                     \
-        if (count < lanes || !pel_i_row_narrow(tap, radius, scale, &narrow)) {                     \
+        const unsigned rest = count % BYTES, last = count - (unsigned)BYTES;                       \
+        finish f;                                                                                  \
+        if (count < BYTES || !finish_of(tap, radius, scale, &f)) {                                 \
             wide(rows, tap, scale, count, out);                                                    \
             return;                                                                                \
         }                                                                                          \
-        name(rows, tap, &narrow, count - rest, out);                                               \
+        name(rows, tap, &f, count - rest, out);                                                    \
         if (rest != 0) {                                                                           \
             const window at_last = window_at(rows, radius, last);                                  \
-            name(at_last.rows, tap, &narrow, lanes, out + last);                                   \
+            name(at_last.rows, tap, &f, BYTES, out + last);                                        \
         }                                                                                          \
     }
 
