@@ -11,7 +11,7 @@ struct pel_blob_slot {
     uint32_t sum_x, sum_y;
     uint16_t x0, x1, y0;
     uint16_t newest; /* the place_of its newest run */
-    uint16_t parent; /* itself for a root */
+    uint16_t parent; /* itself for a root; in the closed list: the next slot */
     uint8_t label;
     uint8_t broken; /* a run of the blob was lost */
 };
@@ -57,7 +57,10 @@ enum { STATE_IDLE, STATE_ROWS };
 void pel_i_blobs_report(pel_blobs *b, const pel_blob *blob);
 
 /* Where the runs of the next row go. */
-uint16_t *pel_i_blobs_edges(const pel_blobs *b);
+static inline uint16_t *pel_i_blobs_edges(const pel_blobs *b)
+{
+    return &b->runs[1 - b->above]->x0;
+}
 
 /* Adds the row whose runs lie there; of `labels` only the first of each run is read. */
 pel_status pel_i_blobs_join(pel_blobs *b, uint16_t count, const uint8_t *labels,

@@ -6,18 +6,19 @@
  *   join     each run to the open blobs whose runs it touches above; blobs that turn out to be one
  *            are united (a union-find forest over the slots)
  *   add      the run to the sums of its blob; one that touches none opens a blob
- *   close    a blob as soon as the walk has passed its last run above and no run of this row
+ *   list     a blob as closed when the walk has passed its last run above and no run of this row
  *            had joined it: each blob knows its newest run
- * United slots are kept, as runs may still refer to them, until a run finds no free slot. Then,
- * after the walk, the runs of the row learn the roots of their trees, the united slots become free,
- * and those runs get slots now, if there are any. So a blob is lost only if more blobs than slots
- * are open after the row, and as every open blob owns a run of it, there are never more of them
- * than runs in a row.
+ * After the walk the listed blobs are reported. United slots are kept, as runs may still refer to
+ * them, until a run finds no free slot. Then the runs of the row learn the roots of their trees,
+ * the united slots become free, and the runs without get slots now, if there are any. So a blob is
+ * lost only if more blobs than slots are open after the row, and as every open blob owns a run of
+ * it, there are never more of them than runs in a row.
  *
  * This file is a part of blobs.c and of blobs_measure.c, which say before it what their blobs
  * measure beyond area, box and sums: clear_extras, unite_extras, touch_extras, add_extras,
  * describe_extras. So a program that measures nothing else carries no code for it.
  */
+
 /* ---- Slots --------------------------------------------------------------------------------- */
 
 static inline unsigned find_root(slot *slots, unsigned id)
@@ -109,23 +110,24 @@ static unsigned touch(pel_blobs *b, unsigned id, unsigned above)
 /* ---- Blobs gather the pixels of the row ---------------------------------------------------- */
 
 /* n * s is even: where n is odd, s is even. */
-static inline void add_run(pel_blobs *b, unsigned id, const pel_run *run, const uint16_t *place,
-                           const pel_crow *pixels)
+static inline void add_run(pel_blobs *b, unsigned id, pel_run run, const uint16_t *place,
+                           uint64_t touched)
 {
     slot *const t = &b->slots[id];
-    const uint32_t n = (uint32_t)run->x1 - run->x0, s = (uint32_t)run->x0 + run->x1 - 1;
+    const uint32_t n = (uint32_t)run.x1 - run.x0, s = (uint32_t)run.x0 + run.x1 - 1;
+    const uint32_t y = b->next_row;
 
     t->area += n;
     t->sum_x += n * s / 2;
-    t->sum_y += n * b->next_row;
-    if (run->x0 < t->x0) {
-        t->x0 = run->x0;
+    t->sum_y += n * y;
+    if (run.x0 < t->x0) {
+        t->x0 = run.x0;
     }
-    if (run->x1 > t->x1) {
-        t->x1 = run->x1;
+    if (run.x1 > t->x1) {
+        t->x1 = run.x1;
     }
     t->newest = place_of(place);
-    add_extras(b, id, run, n * s / 2, pixels);
+    add_extras(b, id, run, touched);
 }
 
 /* ---- Blobs that end ------------------------------------------------------------------------ */
@@ -151,24 +153,26 @@ static void describe(const pel_blobs *b, unsigned id, pel_blob *blob)
     describe_extras(b, id, blob);
 }
 
-/* Closes a blob: its last row is the one above. The filter lets most blobs of a noisy picture go by
- * their area: those are spared the description. */
-static void close_blob(pel_blobs *b, unsigned id)
+/* Closes the listed blobs: their last row is the one above. The filter lets most blobs of a noisy
+ * picture go by their area: those are spared the description. */
+PEL_I_APART static void close_listed(pel_blobs *b)
 {
-    const slot *const s = &b->slots[id];
-    pel_blob blob;
-
-    if (s->broken) {
-        b->counts.lost_px += s->area;
-    } else if (b->config.filter && s->area < b->config.filter->area_min) {
-        b->counts.filtered++;
-        b->counts.filtered_px += s->area;
-    } else {
-        describe(b, id, &blob);
-        pel_i_blobs_report(b, &blob);
+    for (unsigned id = b->closed_slot, next; id != END; id = next) {
+        const slot *const s = &b->slots[id];
+        next = s->parent;
+        if (s->broken) {
+            b->counts.lost_px += s->area;
+        } else if (b->config.filter && s->area < b->config.filter->area_min) {
+            b->counts.filtered++;
+            b->counts.filtered_px += s->area;
+        } else {
+            pel_blob blob;
+            describe(b, id, &blob);
+            pel_i_blobs_report(b, &blob);
+        }
+        free_slot(b, id);
+        b->open_count--;
     }
-    free_slot(b, id);
-    b->open_count--;
 }
 
 /* ---- A row --------------------------------------------------------------------------------- */
@@ -192,36 +196,41 @@ static inline unsigned open_or_lose(pel_blobs *b, unsigned label, int second)
  * whether a run found no free slot. The last run of a row is behind its end: it touches nothing,
  * but all of the row above is passed before it.
  */
-static int walk(pel_blobs *b, size_t first, const pel_run *above, const uint8_t *labels,
-                const pel_crow *pixels, int second)
+PEL_I_APART static int walk(pel_blobs *b, size_t first, const pel_run *above, const uint8_t *labels,
+                            int second)
 {
-    const pel_run *run = b->runs[1 - b->above] + first;
+    const pel_run *next = b->runs[1 - b->above] + first;
     uint16_t *place = b->ids[1 - b->above] + first;
     const uint16_t *place_above = b->ids[b->above];
     slot *const slots = b->slots;
     const int reach = b->reach;
+    uint16_t *closed = &b->closed_slot;
     int late = 0;
 
-    for (;; run++, place++) {
-        const int from = (int)run->x0 - reach, to = (int)run->x1 + reach; /* from may be -1 */
+    for (;; place++) {
+        const pel_run run = *next++;
+        const int from = (int)run.x0 - reach, to = (int)run.x1 + reach; /* from may be -1 */
         unsigned id = NO_BLOB, label;
+        uint64_t touched = 0;
         for (; (int)above->x1 <= from; above++, place_above++) {
             const unsigned other = *place_above;
             if (other < LOST && slots[other].newest == place_of(place_above)) {
-                close_blob(b, other);
+                *closed = (uint16_t)other;
+                closed = &slots[other].parent;
             }
         }
         if (to >= BEYOND) {
+            *closed = END;
             return late;
         }
-        label = labels[run->x0];
+        label = labels[run.x0];
         for (size_t k = 0; (int)above[k].x0 < to; k++) {
             const unsigned other = place_above[k];
             if (label_of_id(slots, other) == label) {
                 id = id == NO_BLOB && other < LOST && slots[other].parent == other
                          ? other
                          : touch(b, id, other);
-                touch_extras(b, id, run, &above[k]);
+                touched += touch_extras(run, above[k]);
             }
         }
         if (id == NO_BLOB) {
@@ -229,17 +238,17 @@ static int walk(pel_blobs *b, size_t first, const pel_run *above, const uint8_t 
         }
         *place = (uint16_t)id;
         if (id < LOST) {
-            add_run(b, id, run, place, pixels);
+            add_run(b, id, run, place, touched);
         } else if (id == NO_BLOB) {
             late = 1;
         } else {
-            b->counts.lost_px += (uint32_t)(run->x1 - run->x0);
+            b->counts.lost_px += (uint32_t)(run.x1 - run.x0);
         }
     }
 }
 
 /* Runs learn their roots; then nothing refers to united slots any more. */
-static void settle(pel_blobs *b, size_t count)
+PEL_I_APART static void settle(pel_blobs *b, size_t count)
 {
     uint16_t *const ids = b->ids[1 - b->above];
 
@@ -255,31 +264,27 @@ static void settle(pel_blobs *b, size_t count)
     }
 }
 
-/* Second walks, each over a run that found no slot in the first. It touches nothing. */
-static void join_late(pel_blobs *b, size_t count, const uint8_t *labels, const pel_crow *pixels)
+/* Joins the runs of a row, which are in their place, to the blobs. A run that found no slot in the
+ * first walk has a second one of its own, which touches nothing. */
+PEL_I_APART static void join_row(pel_blobs *b, size_t count, const uint8_t *labels)
 {
     const pel_run beyond = {BEYOND - 1, BEYOND};
     pel_run *const runs = b->runs[1 - b->above];
+    int late;
 
-    settle(b, count);
-    for (size_t i = 0; i < count; i++) {
-        if (b->ids[1 - b->above][i] == NO_BLOB) {
-            const pel_run next = runs[i + 1];
-            runs[i + 1] = beyond;
-            (void)walk(b, i, &runs[i + 1], labels, pixels, 1);
-            runs[i + 1] = next;
+    runs[count] = beyond;
+    late = walk(b, 0, b->runs[b->above], labels, 0);
+    close_listed(b);
+    if (late) {
+        settle(b, count);
+        for (size_t i = 0; i < count; i++) {
+            if (b->ids[1 - b->above][i] == NO_BLOB) {
+                const pel_run next = runs[i + 1];
+                runs[i + 1] = beyond;
+                (void)walk(b, i, &runs[i + 1], labels, 1);
+                runs[i + 1] = next;
+            }
         }
-    }
-}
-
-/* Joins the runs of a row, which are in their place, to the blobs. */
-static void join_row(pel_blobs *b, size_t count, const uint8_t *labels, const pel_crow *pixels)
-{
-    const pel_run beyond = {BEYOND - 1, BEYOND};
-
-    b->runs[1 - b->above][count] = beyond;
-    if (walk(b, 0, b->runs[b->above], labels, pixels, 0)) {
-        join_late(b, count, labels, pixels);
     }
     if (b->open_count > b->counts.open_peak) {
         b->counts.open_peak = b->open_count;

@@ -20,23 +20,19 @@ static inline void unite_extras(const pel_blobs *b, unsigned into, unsigned from
     (void)from;
 }
 
-static inline void touch_extras(const pel_blobs *b, unsigned id, const pel_run *run,
-                                const pel_run *above)
+static inline uint64_t touch_extras(pel_run run, pel_run above)
 {
-    (void)b;
-    (void)id;
     (void)run;
     (void)above;
+    return 0;
 }
 
-static inline void add_extras(const pel_blobs *b, unsigned id, const pel_run *run, uint32_t sum_x,
-                              const pel_crow *pixels)
+static inline void add_extras(const pel_blobs *b, unsigned id, pel_run run, uint64_t touched)
 {
     (void)b;
     (void)id;
     (void)run;
-    (void)sum_x;
-    (void)pixels;
+    (void)touched;
 }
 
 static inline void describe_extras(const pel_blobs *b, unsigned id, pel_blob *blob)
@@ -93,11 +89,6 @@ void pel_i_blobs_report(pel_blobs *b, const pel_blob *blob)
 
 /* ---- A row --------------------------------------------------------------------------------- */
 
-uint16_t *pel_i_blobs_edges(const pel_blobs *b)
-{
-    return &b->runs[1 - b->above]->x0;
-}
-
 pel_status pel_i_blobs_join(pel_blobs *b, uint16_t count, const uint8_t *labels,
                             const pel_crow *pixels)
 {
@@ -109,7 +100,7 @@ pel_status pel_i_blobs_join(pel_blobs *b, uint16_t count, const uint8_t *labels,
             return status;
         }
     } else {
-        join_row(b, count, labels, pixels);
+        join_row(b, count, labels);
     }
     b->next_row++;
     return b->counts.lost_opens == lost_before ? PEL_OK : PEL_TRUNCATED;

@@ -96,15 +96,15 @@ pel_status pel_blobs_begin(pel_blobs *b, const pel_blobs_config *config)
     return PEL_OK;
 }
 
-/* Adds the next row, which was checked. */
-static pel_status add_row(pel_blobs *b, const pel_classifier *classifier, pel_crow *row,
-                          uint8_t *labels)
+/* Adds the next row, which was checked. RGB is read in the range of the classes. */
+static inline pel_status add_row(pel_blobs *b, const pel_classifier *classifier, pel_crow *row,
+                                 uint8_t *labels)
 {
-    const uint16_t count = pel_i_classify_runs(classifier, row, b->config.width, b->config.backend,
-                                               labels, pel_i_blobs_edges(b));
-
-    row->range = classifier->range; /* RGB is read in the range of the classes */
-    return pel_i_blobs_join(b, count, labels, row);
+    row->range = classifier->range;
+    return pel_i_blobs_join(b,
+                            pel_i_classify_runs(classifier, row, b->config.width, b->config.backend,
+                                                labels, pel_i_blobs_edges(b)),
+                            labels, row);
 }
 
 pel_status pel_blobs_pixels(pel_blobs *b, uint16_t y, const pel_classifier *classifier,

@@ -24,52 +24,30 @@ static inline void unite_extras(const pel_blobs *b, unsigned into, unsigned from
     }
 }
 
-/* A run of the blob touches a run above: a pair more, and so many edges less, none at a corner. */
-static inline void touch_extras(const pel_blobs *b, unsigned id, const pel_run *run,
-                                const pel_run *above)
+/* A run touches a run above: a pair more, and so many edges less, none at a corner. */
+static inline uint64_t touch_extras(pel_run run, pel_run above)
 {
-    const uint16_t x0 = above->x0 > run->x0 ? above->x0 : run->x0;
-    const uint16_t x1 = above->x1 < run->x1 ? above->x1 : run->x1;
-
-    if (id < LOST && (b->config.measure & PEL_MEASURE_OUTLINE)) {
-        *extras_of(b, id) -= ((uint64_t)1 << 32) + (uint16_t)(x1 - x0);
-    }
-}
-
-static void add_color(const pel_blobs *b, uint64_t *sums, const pel_run *run,
-                      const pel_crow *pixels)
-{
-    enum { CHUNK = 8 };
-    uint8_t y[CHUNK], u[CHUNK], v[CHUNK];
-
-    for (unsigned x = run->x0; x < run->x1; x += CHUNK) {
-        const uint16_t n = (uint16_t)(run->x1 - x < CHUNK ? run->x1 - x : CHUNK);
-        (void)b->config.reader(pixels, (uint16_t)x, n, pixels->range, y, u, v); /* checked before */
-        sums[0] += pel_row_sum(y, n) | (uint64_t)pel_row_sum(u, n) << 32;
-        sums[1] += pel_row_sum(v, n);
-    }
+    const uint16_t x0 = above.x0 > run.x0 ? above.x0 : run.x0;
+    const uint16_t x1 = above.x1 < run.x1 ? above.x1 : run.x1;
+    return ((uint64_t)1 << 32) + (uint16_t)(x1 - x0);
 }
 
 /* Adds what is measured beyond area, box and sums. With s = x0 + x1 - 1, twice the middle of a run
  * of n, its sum of x*x is n (3 s^2 + n^2 - 1) / 12; the bracket is below 2^30. */
-static inline void add_extras(const pel_blobs *b, unsigned id, const pel_run *run, uint32_t sum_x,
-                              const pel_crow *pixels)
+static inline void add_extras(const pel_blobs *b, unsigned id, pel_run run, uint64_t touched)
 {
-    const uint32_t n = (uint32_t)run->x1 - run->x0, s = (uint32_t)run->x0 + run->x1 - 1;
+    const uint32_t n = (uint32_t)run.x1 - run.x0, s = (uint32_t)run.x0 + run.x1 - 1;
     const uint32_t y = b->next_row;
+    const unsigned measure = b->config.measure;
     uint64_t *extra = extras_of(b, id);
 
-    if (b->config.measure & PEL_MEASURE_OUTLINE) {
-        *extra++ += ((uint64_t)1 << 32) + 1;
+    if (measure & PEL_MEASURE_OUTLINE) {
+        *extra++ += ((uint64_t)1 << 32) + 1 - touched;
     }
-    if (b->config.measure & PEL_MEASURE_MOMENTS) {
+    if (measure & PEL_MEASURE_MOMENTS) {
         extra[0] += (uint64_t)n * (3 * s * s + n * n - 1);
-        extra[1] += (uint64_t)sum_x * y;
+        extra[1] += (uint64_t)(n * s / 2) * y;
         extra[2] += (uint64_t)n * (y * y);
-        extra += 3;
-    }
-    if (b->config.measure & PEL_MEASURE_COLOR) {
-        add_color(b, extra, run, pixels);
     }
 }
 
@@ -103,7 +81,34 @@ static void describe_extras(const pel_blobs *b, unsigned id, pel_blob *blob)
 
 #include "blob_walk_template.h"
 
-static pel_status check_pixels(const pel_blobs *b, const pel_crow *pixels)
+static void add_color(const pel_blobs *b, uint64_t *sums, pel_run run, const pel_crow *pixels)
+{
+    enum { CHUNK = 8 };
+    uint8_t y[CHUNK], u[CHUNK], v[CHUNK];
+
+    for (unsigned x = run.x0; x < run.x1; x += CHUNK) {
+        const uint16_t n = (uint16_t)(run.x1 - x < CHUNK ? run.x1 - x : CHUNK);
+        (void)b->config.reader(pixels, (uint16_t)x, n, pixels->range, y, u, v); /* checked before */
+        sums[0] += pel_row_sum(y, n) | (uint64_t)pel_row_sum(u, n) << 32;
+        sums[1] += pel_row_sum(v, n);
+    }
+}
+
+/* The pixels of the row, when all of its runs are in blobs. The sums of colour are the last two. */
+PEL_I_APART static void add_colors(const pel_blobs *b, size_t count, const pel_crow *pixels)
+{
+    const size_t newest = b->above; /* the rows have changed places */
+
+    for (size_t i = 0; i < count; i++) {
+        const unsigned id = b->ids[newest][i];
+        if (id < LOST) {
+            add_color(b, extras_of(b, find_root(b->slots, id)) + b->extra_count - 2,
+                      b->runs[newest][i], pixels);
+        }
+    }
+}
+
+PEL_I_APART static pel_status check_pixels(const pel_blobs *b, const pel_crow *pixels)
 {
     uint8_t y, u, v;
     const pel_status status =
@@ -123,7 +128,10 @@ pel_status pel_blobs_measure(pel_blobs *b, uint16_t count, const uint8_t *labels
         labels && (b->config.measure & PEL_MEASURE_COLOR) ? check_pixels(b, pixels) : PEL_OK;
 
     if (status == PEL_OK) {
-        join_row(b, count, labels, pixels);
+        join_row(b, count, labels);
+        if (b->config.measure & PEL_MEASURE_COLOR) {
+            add_colors(b, count, pixels);
+        }
     }
     return status;
 }

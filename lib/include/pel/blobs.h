@@ -264,6 +264,7 @@ typedef struct pel_blobs {
     uint16_t next_row;
     uint16_t free_slot;
     uint16_t united_slot;
+    uint16_t closed_slot;
     uint16_t open_count;
     uint8_t extra_count;
     uint8_t above;
