@@ -5,360 +5,303 @@
  *     V(op), BITS(op)          the intrinsic functions of its width
  *     everywhere(bytes)        16 bytes in every 16 of a vector
  *     MOVED(last, here, n)     what lies n bytes before `here` if `last` lies before it
- *     from_packed, to_doubled  see there; the order of bytes that packing two vectors leaves
- *     is_zero, both_same       whether a vector is 0; whether a pair equals another pair
- *     WORD, edge_bits          the edges of runs among so many pixels as bits
- *     lowest_place, bit_count  of 64 bits; of none, any place will do
- *     ISA, INLINE, KERNEL      for what a function is compiled, what it is called
+ *     in_halves(low, high)     two half vectors from memory
+ *     eights, fours            put the even of so many bytes before the odd: undo what unpacking
+ *                              does to every 16 bytes for themselves
+ *     twice(bytes)             each byte of the low half twice
+ *     chroma_tables, chroma_tables_of, chroma_masks
+ *                              classes by chroma: of U in the low and V in the high half, the masks
+ *                              together in the low half; beyond it 0 or the same again
+ *     is_zero, equal_bytes     whether a vector is 0; a bit for each byte in which two are equal
+ *     lowest_place, bit_count  of 64 bits; the place of none may be any
+ *     ISA, INLINE, APART, KERNEL
+ *                              for what a function is compiled, what it is called
  *
- * A block is two vectors of pixels, because these share one vector of U and one of V. The last
- * block of a row ends where the row ends and so overlaps the one before it: its pixels are
- * classified twice, and their runs found once. An odd last pixel is left over.
+ * The last vector of a row ends where the row ends and so overlaps the one before it: its pixels
+ * are classified twice, and their runs found once. An odd last pixel is left over.
  */
 
-enum { BLOCK = 2 * LANES };
+/* ---- Pixels -------------------------------------------------------------------------------- */
 
-INLINE vec load(const uint8_t *bytes)
+/* A row and its classes: what lies in memory, and what the loops hold in registers. There are not
+ * enough of these for Y's nibble tables, too. Packed 4:2:2 begins at `bytes`; in `order`, every 16
+ * bytes become 4 U, 4 V, 8 Y. */
+typedef struct row {
+    const uint8_t *nibbles, *constants;
+    const pel_row_pairs *src;
+    const uint8_t *bytes;
+    vec order, nibble;
+    chroma_tables chroma;
+} row;
+
+INLINE row row_of(const uint8_t *nibbles, const pel_row_pairs *src)
 {
-    return BITS(loadu)((const loose_vec *)(const void *)bytes);
+    const uint8_t *const c = src->u < src->v ? src->u : src->v;
+    const uint8_t *const bytes = src->y < c ? src->y : c;
+    const uint8_t *const constant = constants();
+    const vec nibble = everywhere(load16(constant + OF_NIBBLE));
+    const row r = {nibbles, constant, src, bytes, nibble, nibble, chroma_tables_of(nibbles)};
+    return r;
 }
 
-INLINE void store(uint8_t *bytes, vec value)
+INLINE row packed_row_of(const uint8_t *nibbles, const pel_row_pairs *src)
 {
-    BITS(storeu)((loose_vec *)(void *)bytes, value);
+    static const uint8_t orders[4][16] = {{1, 5, 9, 13, 3, 7, 11, 15, 0, 2, 4, 6, 8, 10, 12, 14},
+                                          {3, 7, 11, 15, 1, 5, 9, 13, 0, 2, 4, 6, 8, 10, 12, 14},
+                                          {0, 4, 8, 12, 2, 6, 10, 14, 1, 3, 5, 7, 9, 11, 13, 15},
+                                          {2, 6, 10, 14, 0, 4, 8, 12, 1, 3, 5, 7, 9, 11, 13, 15}};
+    row r = row_of(nibbles, src);
+    const unsigned y_second = r.bytes < src->y, v_first = src->v < src->u;
+
+    r.order = everywhere(load16(orders[2 * y_second + v_first]));
+    return r;
 }
 
-/* ---- Box classes --------------------------------------------------------------------------- */
-
-/* The nibble tables of a channel; see row_nibbles.h. */
-typedef struct tables {
-    vec above, first, below, from, to;
-} tables;
-
-typedef struct channels {
-    tables y, first_c, second_c; /* of U and V the one that lies first in memory, then the other */
-} channels;
-
-INLINE vec table_at(const uint8_t *bytes)
+/* Half a vector of U before half a vector of V. */
+INLINE vec planar_chroma(const pel_row_pairs *src, size_t x)
 {
-    return everywhere(_mm_loadu_si128((const __m128i_u *)(const void *)bytes));
-}
+    __m128i pairs;
 
-INLINE tables tables_of(const uint8_t *nibbles)
-{
-    const tables t = {table_at(nibbles + PEL_NIBBLES_ABOVE), table_at(nibbles + PEL_NIBBLES_FIRST),
-                      table_at(nibbles + PEL_NIBBLES_BELOW), table_at(nibbles + PEL_NIBBLES_FROM),
-                      table_at(nibbles + PEL_NIBBLES_TO)};
-    return t;
-}
-
-INLINE channels channels_of(const uint8_t *nibbles, int v_first)
-{
-    const tables u = tables_of(nibbles + PEL_NIBBLES_CHANNEL);
-    const tables v = tables_of(nibbles + 2 * PEL_NIBBLES_CHANNEL);
-    const channels c = {tables_of(nibbles), v_first ? v : u, v_first ? u : v};
-    return c;
-}
-
-/* The class masks of a vector of values. */
-INLINE vec masks_of(const tables *t, vec values)
-{
-    const vec nibble = V(set1_epi8)(15);
-    const vec low = BITS(and)(values, nibble);
-    const vec high = BITS(and)(V(srli_epi16)(values, 4), nibble);
-    const vec from = BITS(and)(V(shuffle_epi8)(t->first, high), V(shuffle_epi8)(t->from, low));
-    const vec to = BITS(or)(V(shuffle_epi8)(t->below, high), V(shuffle_epi8)(t->to, low));
-    return BITS(and)(BITS(or)(V(shuffle_epi8)(t->above, high), from), to);
-}
-
-/* 1 + the place of the lowest bit, 0 for none: of either nibble one less (255 for none), the
- * smaller of both, plus one. */
-INLINE vec labels_of(vec masks)
-{
-    const vec nibble = V(set1_epi8)(15);
-    const vec of_low = everywhere(_mm_setr_epi8(-1, 0, 1, 0, 2, 0, 1, 0, 3, 0, 1, 0, 2, 0, 1, 0));
-    const vec of_high = everywhere(_mm_setr_epi8(-1, 4, 5, 4, 6, 4, 5, 4, 7, 4, 5, 4, 6, 4, 5, 4));
-    const vec low = V(shuffle_epi8)(of_low, BITS(and)(masks, nibble));
-    const vec high = V(shuffle_epi8)(of_high, BITS(and)(V(srli_epi16)(masks, 4), nibble));
-    return V(sub_epi8)(V(min_epu8)(low, high), V(set1_epi8)(-1));
-}
-
-/* The even or the odd bytes of two vectors, those of every 16 side by side. */
-INLINE vec even_bytes(vec a, vec b)
-{
-    const vec byte = V(set1_epi16)(255);
-    return V(packus_epi16)(BITS(and)(a, byte), BITS(and)(b, byte));
-}
-
-INLINE vec odd_bytes(vec a, vec b)
-{
-    return V(packus_epi16)(V(srli_epi16)(a, 8), V(srli_epi16)(b, 8));
-}
-
-/* The masks of U and V together, from vectors in which they alternate. */
-INLINE vec chroma_masks(const channels *c, vec a, vec b)
-{
-    return BITS(and)(masks_of(&c->first_c, even_bytes(a, b)),
-                     masks_of(&c->second_c, odd_bytes(a, b)));
-}
-
-/* ---- Blocks -------------------------------------------------------------------------------- */
-
-typedef enum layout { LUMA_EVEN, LUMA_ODD, PLANAR } layout;
-
-/* A row: `luma` is its first byte where it is packed, else its Y. */
-typedef struct pixels {
-    const uint8_t *luma, *first_c, *second_c;
-    size_t c_step;
-} pixels;
-
-/* Labels of the pixels of a block. */
-typedef struct block {
-    vec left, right;
-} block;
-
-/* Packed 4:2:2; 0 if the block is background by its chroma alone, most often. */
-INLINE int packed_block(const channels *c, const uint8_t *src, layout order, block *labels)
-{
-    const vec p = load(src), q = load(src + LANES);
-    const vec r = load(src + 2 * LANES), s = load(src + 3 * LANES);
-    const int odd = order == LUMA_ODD;
-    const vec chroma = chroma_masks(c, odd ? even_bytes(p, q) : odd_bytes(p, q),
-                                    odd ? even_bytes(r, s) : odd_bytes(r, s));
-    if (is_zero(chroma)) {
-        return 0;
-    }
-    labels->left = masks_of(&c->y, odd ? odd_bytes(p, q) : even_bytes(p, q));
-    labels->right = masks_of(&c->y, odd ? odd_bytes(r, s) : even_bytes(r, s));
-    labels->left = BITS(and)(labels->left, V(unpacklo_epi8)(chroma, chroma));
-    labels->right = BITS(and)(labels->right, V(unpackhi_epi8)(chroma, chroma));
-    labels->left = from_packed(labels_of(labels->left));
-    labels->right = from_packed(labels_of(labels->right));
-    return 1;
-}
-
-/* The chroma masks of a block so that unpacking them gives each pixel its own. */
-INLINE vec planar_chroma(const channels *c, const pixels *src, size_t pair)
-{
-    if (src->c_step == 2) {
-        const uint8_t *const both = src->first_c + 2 * pair;
-        return chroma_masks(c, load(both), load(both + LANES));
-    }
     if (src->c_step == 1) {
-        return to_doubled(BITS(and)(masks_of(&c->first_c, load(src->first_c + pair)),
-                                    masks_of(&c->second_c, load(src->second_c + pair))));
+        return in_halves(src->u + x / 2, src->v + x / 2);
     }
-    return BITS(and)(masks_of(&c->first_c, V(set1_epi8)((char)*src->first_c)),
-                     masks_of(&c->second_c, V(set1_epi8)((char)*src->second_c)));
+    if (src->c_step == 2) {
+        const int v_first = src->v < src->u;
+        pairs = _mm_setr_epi8(0, 2, 4, 6, 8, 10, 12, 14, 1, 3, 5, 7, 9, 11, 13, 15);
+        pairs = _mm_xor_si128(pairs, _mm_set1_epi8(v_first ? 1 : 0));
+        return eights(V(shuffle_epi8)(load((v_first ? src->v : src->u) + x), everywhere(pairs)));
+    }
+    pairs = _mm_unpacklo_epi64(_mm_set1_epi8((char)*src->u), _mm_set1_epi8((char)*src->v));
+    return eights(everywhere(pairs)); /* gray */
 }
 
-INLINE int planar_block(const channels *c, const pixels *src, size_t x, block *labels)
+/* The labels of a vector of pixels; 0 if all of them are 0 by their chroma alone, which most are:
+ * then `labels` is not written. */
+INLINE int labels_at(const row *r, int is_packed, size_t x, vec *labels)
 {
-    const vec chroma = planar_chroma(c, src, x / 2);
+    vec a = r->order, b = a, chroma, luma;
+    tables t;
 
+    if (is_packed) {
+        a = V(shuffle_epi8)(load(r->bytes + 2 * x), r->order);
+        b = V(shuffle_epi8)(load(r->bytes + 2 * x + LANES), r->order);
+        chroma = chroma_masks(&r->chroma, r->nibble, fours(V(unpacklo_epi32)(a, b)));
+    } else {
+        chroma = chroma_masks(&r->chroma, r->nibble, planar_chroma(r->src, x));
+    }
     if (is_zero(chroma)) {
         return 0;
     }
-    labels->left =
-        BITS(and)(masks_of(&c->y, load(src->luma + x)), V(unpacklo_epi8)(chroma, chroma));
-    labels->right =
-        BITS(and)(masks_of(&c->y, load(src->luma + x + LANES)), V(unpackhi_epi8)(chroma, chroma));
-    labels->left = labels_of(labels->left);
-    labels->right = labels_of(labels->right);
+    luma = is_packed ? eights(V(unpackhi_epi64)(a, b)) : load(r->src->y + x);
+    t = tables_of(r->nibbles);
+    *labels =
+        labels_of(r->constants, r->nibble, BITS(and)(masks_of(&t, r->nibble, luma), twice(chroma)));
     return 1;
 }
 
-/* 0: all labels are 0, and `labels` is not written. */
-INLINE int classified(const channels *c, const pixels *src, layout order, size_t x, block *labels)
-{
-    return order == PLANAR ? planar_block(c, src, x, labels)
-                           : packed_block(c, src->luma + 2 * x, order, labels);
-}
+/*
+ * A row is done in two parts: the vectors that lie side by side, and, if they do not end with the
+ * row, one that does and of which the first `skip` pixels have been there before.
+ */
+typedef struct part {
+    size_t x, end;
+    unsigned skip;
+} part;
 
-INLINE void store_block(uint8_t *labels, const block *b)
+INLINE part first_part(size_t count)
 {
-    store(labels, b->left);
-    store(labels + LANES, b->right);
-}
-
-INLINE int v_is_first(const pel_row_pairs *src)
-{
-    return src->c_step > 1 && src->v < src->u;
-}
-
-INLINE layout layout_of(const pel_row_pairs *src)
-{
-    return src->y_step == 1 ? PLANAR : src->y < src->u && src->y < src->v ? LUMA_EVEN : LUMA_ODD;
-}
-
-INLINE pixels pixels_of(const pel_row_pairs *src, int v_first, layout order)
-{
-    const uint8_t *const first_c = v_first ? src->v : src->u;
-    const pixels p = {order == LUMA_ODD ? first_c : src->y, first_c, v_first ? src->u : src->v,
-                      src->c_step};
+    const part p = {0, count - count % LANES, 0};
     return p;
+}
+
+/* No part, which ends at 0, after the last one. */
+INLINE part next_part(part p, size_t count)
+{
+    const part next = {count - LANES, p.end == count ? 0 : count,
+                       LANES - (unsigned)(count % LANES)};
+    return next;
 }
 
 /* ---- Labels -------------------------------------------------------------------------------- */
 
-INLINE void classify_as(const uint8_t *nibbles, const pel_row_pairs *row, layout order,
-                        size_t count, uint8_t *labels)
+INLINE void classify_part(const row *r, int is_packed, part p, uint8_t *labels)
 {
-    const int v_first = v_is_first(row);
-    const channels c = channels_of(nibbles, v_first);
-    const pixels src = pixels_of(row, v_first, order);
-    const block background = {V(set1_epi8)(0), V(set1_epi8)(0)};
-
-    for (size_t x = 0; x < count; x += BLOCK) {
-        block found = background;
-        x = x + BLOCK <= count ? x : count - BLOCK;
-        (void)classified(&c, &src, order, x, &found);
-        store_block(labels + x, &found);
+    for (size_t x = p.x; x < p.end; x += LANES) {
+        vec found = V(set1_epi8)(0);
+        (void)labels_at(r, is_packed, x, &found);
+        store(labels + x, found);
     }
+}
+
+APART void classify_packed(const uint8_t *nibbles, const pel_row_pairs *src, part p,
+                           uint8_t *labels)
+{
+    const row r = packed_row_of(nibbles, src);
+    classify_part(&r, 1, p, labels);
+}
+
+APART void classify_planar(const uint8_t *nibbles, const pel_row_pairs *src, part p,
+                           uint8_t *labels)
+{
+    const row r = row_of(nibbles, src);
+    classify_part(&r, 0, p, labels);
 }
 
 ISA uint16_t KERNEL(classify_nibbles)(const uint8_t *nibbles, const pel_row_pairs *src,
                                       uint16_t count, uint8_t *labels)
 {
-    const uint16_t even = count < BLOCK ? 0 : (uint16_t)(count & ~1u);
+    const uint16_t even = (uint16_t)(count & ~1u);
 
-    switch (layout_of(src)) {
-    case LUMA_EVEN:
-        classify_as(nibbles, src, LUMA_EVEN, even, labels);
-        break;
-    case LUMA_ODD:
-        classify_as(nibbles, src, LUMA_ODD, even, labels);
-        break;
-    default:
-        classify_as(nibbles, src, PLANAR, even, labels);
-        break;
+    if (count < LANES) {
+        return 0;
+    }
+    for (part p = first_part(even); p.end != 0; p = next_part(p, even)) {
+        if (src->y_step == 2) {
+            classify_packed(nibbles, src, p, labels);
+        } else {
+            classify_planar(nibbles, src, p, labels);
+        }
     }
     return even;
 }
 
 /* ---- Runs ---------------------------------------------------------------------------------- */
 
-/* `edge` is the place of the next begin or end of a run, `label` that of the last pixel so far. */
+/* `edge` is the place of the next begin or end of a run; `inside` is 1 if the last label so far is
+ * not 0. */
 typedef struct run_writer {
     uint16_t *edge;
-    unsigned label;
+    uint64_t inside;
 } run_writer;
 
-/*
- * Two bits for a pixel: a run ends before it, a run begins with it. `bits` is not 0. Four edges are
- * written whatever there are, so that few jumps depend on the picture. Up to three of them are
- * scratch, for which there is room: pixels 0 .. x-1 have 2 x - 1 edges at most.
- */
-INLINE uint16_t *put_edges(uint16_t *edge, uint64_t bits, unsigned x)
+INLINE uint64_t put_place(uint16_t *edge, uint64_t bits, size_t x)
+{
+    *edge = (uint16_t)(x + lowest_place(bits));
+    return bits & (bits - 1);
+}
+
+/* A place for every bit; there is one. Two places are written, then four and four, whatever there
+ * are, so that few jumps depend on the picture. Up to three of them are scratch, for which there is
+ * room: the pixels before x have 2 x - 1 edges at most. */
+INLINE uint16_t *put_places(uint16_t *edge, uint64_t bits, size_t x)
 {
     uint16_t *const end = edge + bit_count(bits);
 
-    do {
-        for (unsigned i = 0; i < 4; i++) {
-            edge[i] = (uint16_t)(x + lowest_place(bits) / 2);
-            bits &= bits - 1;
-        }
-        edge += 4;
-    } while (bits != 0);
+    bits = put_place(edge, bits, x);
+    bits = put_place(edge + 1, bits, x);
+    for (edge += 2; bits != 0; edge += 4) {
+        bits = put_place(edge, bits, x);
+        bits = put_place(edge + 1, bits, x);
+        bits = put_place(edge + 2, bits, x);
+        bits = put_place(edge + 3, bits, x);
+    }
     return end;
 }
 
-/* The edges in a vector of labels, without those of its first `skip` pixels. */
-INLINE uint16_t *add_vector(uint16_t *edge, vec before, vec here, unsigned x, int skip)
+/* The same where at some places, `both`, a run ends and the next one begins. */
+INLINE uint16_t *put_some_twice(uint16_t *edge, uint64_t bits, uint64_t both, size_t x)
 {
-    for (int i = 0; i < LANES; i += WORD) {
-        const int drop = skip - i;
-        uint64_t bits = edge_bits(before, here, i);
-        if (drop > 0) {
-            bits &= drop < WORD ? ~UINT64_C(0) << 2 * drop : 0;
-        }
-        if (bits != 0) {
-            edge = put_edges(edge, bits, x + (unsigned)i);
-        }
-    }
+    do {
+        const unsigned place = lowest_place(bits);
+        edge[0] = (uint16_t)(x + place);
+        edge[1] = (uint16_t)(x + place);
+        edge += 1 + (both >> place & 1);
+        bits &= bits - 1;
+    } while (bits != 0);
     return edge;
 }
 
-/* labels: those of the block, already stored. The first `skip` of them have been there before. */
-INLINE run_writer add_block(run_writer writer, const block *b, const uint8_t *labels, size_t x,
-                            int skip)
+/* The edges in a vector of labels behind the vector `last`, at the places that are in `keep`. */
+INLINE run_writer add_labels(run_writer writer, vec last, vec here, size_t x, uint64_t keep)
 {
-    const vec last = V(set1_epi8)((char)writer.label);
-    const vec before_left = MOVED(last, b->left, 1);
-    const vec before_right = MOVED(b->left, b->right, 1);
+    const uint64_t changes = ~equal_bytes(MOVED(last, here, 1), here) & keep;
 
-    if (skip > 0 || !both_same(before_left, b->left, before_right, b->right)) {
-        writer.edge = add_vector(writer.edge, before_left, b->left, (unsigned)x, skip);
-        writer.edge =
-            add_vector(writer.edge, before_right, b->right, (unsigned)x + LANES, skip - LANES);
-        writer.label = labels[BLOCK - 1];
+    if (changes != 0) {
+        const uint64_t nonzero = ~equal_bytes(V(set1_epi8)(0), here);
+        const uint64_t both = changes & nonzero & (nonzero << 1 | writer.inside);
+        writer.edge = both == 0 ? put_places(writer.edge, changes, x)
+                                : put_some_twice(writer.edge, changes, both, x);
+        writer.inside = nonzero >> (LANES - 1) & 1;
     }
     return writer;
 }
 
-/* A pixel with a label, whatever it was before. */
-INLINE run_writer add_pixel(run_writer writer, unsigned label, size_t x)
+/* All places of a vector but the first ones. */
+INLINE uint64_t places_from(unsigned skip)
 {
-    if (label != writer.label) {
-        *writer.edge = (uint16_t)x;
-        writer.edge += writer.label != 0;
-        *writer.edge = (uint16_t)x;
-        writer.edge += label != 0;
-        writer.label = label;
-    }
-    return writer;
+    return ~UINT64_C(0) >> (64 - LANES) >> skip << skip;
 }
 
 /* Behind the vectors of a row: its odd last pixel, if there is one, and its end. */
 INLINE uint16_t end_runs(run_writer writer, const uint8_t *labels, size_t done, size_t count,
                          const uint16_t *edges)
 {
-    if (done < count) {
-        writer = add_pixel(writer, labels[done], done);
+    const unsigned before = writer.inside != 0 ? labels[done - 1] : 0;
+    const unsigned last = done < count ? labels[done] : before;
+
+    if (last != before) {
+        *writer.edge = (uint16_t)done;
+        writer.edge += before != 0;
+        *writer.edge = (uint16_t)done;
+        writer.edge += last != 0;
     }
-    writer = add_pixel(writer, 0, count);
+    if (last != 0) {
+        *writer.edge++ = (uint16_t)count;
+    }
     return (uint16_t)((size_t)(writer.edge - edges) / 2);
 }
 
-INLINE run_writer runs_as(const uint8_t *nibbles, const pel_row_pairs *row, layout order,
-                          size_t count, uint8_t *labels, uint16_t *edges)
+/* What lies before a part does not matter to its second vector on, and of the part that overlaps
+ * another the first pixel is skipped: `last` may begin with 0. */
+INLINE run_writer runs_of_part(const row *r, int is_packed, part p, uint8_t *labels,
+                               run_writer writer)
 {
-    const int v_first = v_is_first(row);
-    const channels c = channels_of(nibbles, v_first);
-    const pixels src = pixels_of(row, v_first, order);
-    run_writer writer = {edges, 0};
+    const uint64_t keep = places_from(p.skip);
+    vec last = V(set1_epi8)(0);
 
-    for (size_t x = 0; x < count; x += BLOCK) {
-        const size_t at = x + BLOCK <= count ? x : count - BLOCK;
-        block found;
-        if (classified(&c, &src, order, at, &found)) {
-            store_block(labels + at, &found);
-            writer = add_block(writer, &found, labels + at, at, (int)(x - at));
-        } else {
-            writer = add_pixel(writer, 0, x);
+    for (size_t x = p.x; x < p.end; x += LANES) {
+        vec found;
+        if (labels_at(r, is_packed, x, &found)) {
+            store(labels + x, found);
+            writer = add_labels(writer, last, found, x, keep);
+            last = found;
+        } else if (writer.inside != 0) {
+            *writer.edge++ = (uint16_t)(x + p.skip);
+            writer.inside = 0;
+            last = V(set1_epi8)(0);
         }
     }
     return writer;
 }
 
-/* count >= BLOCK */
+APART run_writer runs_of_packed(const uint8_t *nibbles, const pel_row_pairs *src, part p,
+                                uint8_t *labels, run_writer writer)
+{
+    const row r = packed_row_of(nibbles, src);
+    return runs_of_part(&r, 1, p, labels, writer);
+}
+
+APART run_writer runs_of_planar(const uint8_t *nibbles, const pel_row_pairs *src, part p,
+                                uint8_t *labels, run_writer writer)
+{
+    const row r = row_of(nibbles, src);
+    return runs_of_part(&r, 0, p, labels, writer);
+}
+
+/* count >= LANES */
 ISA uint16_t KERNEL(classify_runs)(const uint8_t *nibbles, const pel_row_boxes *boxes,
                                    const pel_row_pairs *src, uint16_t count, uint8_t *labels,
                                    uint16_t *edges)
 {
     const size_t even = count & ~(size_t)1;
-    run_writer writer;
+    run_writer writer = {edges, 0};
 
-    switch (layout_of(src)) {
-    case LUMA_EVEN:
-        writer = runs_as(nibbles, src, LUMA_EVEN, even, labels, edges);
-        break;
-    case LUMA_ODD:
-        writer = runs_as(nibbles, src, LUMA_ODD, even, labels, edges);
-        break;
-    default:
-        writer = runs_as(nibbles, src, PLANAR, even, labels, edges);
-        break;
+    for (part p = first_part(even); p.end != 0; p = next_part(p, even)) {
+        if (src->y_step == 2) {
+            writer = runs_of_packed(nibbles, src, p, labels, writer);
+        } else {
+            writer = runs_of_planar(nibbles, src, p, labels, writer);
+        }
     }
     if (even < count) {
         const size_t c = even / 2 * src->c_step;
@@ -369,15 +312,18 @@ ISA uint16_t KERNEL(classify_runs)(const uint8_t *nibbles, const pel_row_boxes *
     return end_runs(writer, labels, even, count, edges);
 }
 
-/* count >= BLOCK */
+/* count >= LANES */
 ISA uint16_t KERNEL(find_runs)(const uint8_t *labels, uint16_t count, uint16_t *edges)
 {
     run_writer writer = {edges, 0};
+    vec last = V(set1_epi8)(0);
 
-    for (size_t x = 0; x < count; x += BLOCK) {
-        const size_t at = x + BLOCK <= count ? x : (size_t)count - BLOCK;
-        const block b = {load(labels + at), load(labels + at + LANES)};
-        writer = add_block(writer, &b, labels + at, at, (int)(x - at));
+    for (part p = first_part(count); p.end != 0; p = next_part(p, count)) {
+        for (size_t x = p.x; x < p.end; x += LANES) {
+            const vec here = load(labels + x);
+            writer = add_labels(writer, last, here, x, places_from(p.skip));
+            last = here;
+        }
     }
     return end_runs(writer, labels, count, count, edges);
 }

@@ -1,6 +1,6 @@
 /*
  * Which version of a row kernel runs: the one place where backends are told apart. On x86
- * a row narrower than two vectors is for the next smaller ones, in the end for plain C.
+ * a row narrower than a vector is for the next smaller ones, in the end for plain C.
  */
 #ifndef PEL_ROW_SELECT_H
 #define PEL_ROW_SELECT_H

@@ -7,13 +7,13 @@
 /* The versions of a kernel that the processor may have. */
 #if defined(PEL_ROW_X86)
 #define PEL_ROW_TRY_RUNS(name, arguments)                                                          \
-    if (backend >= PEL_BACKEND_AVX512 && count >= PEL_ROW_BLOCK_AVX512) {                          \
+    if (backend >= PEL_BACKEND_AVX512 && count >= PEL_ROW_VECTOR_AVX512) {                         \
         return pel_row_##name##_avx512 arguments;                                                  \
     }                                                                                              \
-    if (backend >= PEL_BACKEND_AVX2 && count >= PEL_ROW_BLOCK_AVX2) {                              \
+    if (backend >= PEL_BACKEND_AVX2 && count >= PEL_ROW_VECTOR_AVX2) {                             \
         return pel_row_##name##_avx2 arguments;                                                    \
     }                                                                                              \
-    if (backend >= PEL_BACKEND_SSSE3 && count >= PEL_ROW_BLOCK_SSSE3) {                            \
+    if (backend >= PEL_BACKEND_SSSE3 && count >= PEL_ROW_VECTOR_SSSE3) {                           \
         return pel_row_##name##_ssse3 arguments;                                                   \
     }
 #elif defined(PEL_ROW_NEON)

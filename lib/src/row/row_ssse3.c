@@ -6,12 +6,13 @@
 
 #define ISA __attribute__((target("ssse3")))
 #define INLINE __attribute__((target("ssse3"), always_inline)) static inline
+#define APART __attribute__((target("ssse3"), noinline)) static
 #define KERNEL(name) pel_row_##name##_ssse3
 #define V(operation) _mm_##operation
 #define BITS(operation) _mm_##operation##_si128
 #define MOVED(last, here, n) _mm_alignr_epi8(here, last, 16 - (n))
 
-enum { LANES = 16, WORD = 16 };
+enum { LANES = 16 };
 typedef __m128i vec;
 typedef __m128i_u loose_vec;
 
@@ -20,15 +21,25 @@ INLINE vec everywhere(__m128i bytes)
     return bytes;
 }
 
-/* Packing and unpacking keep the order. */
-INLINE vec from_packed(vec bytes)
+INLINE vec in_halves(const uint8_t *low, const uint8_t *high)
+{
+    return _mm_unpacklo_epi64(_mm_loadl_epi64((const __m128i_u *)(const void *)low),
+                              _mm_loadl_epi64((const __m128i_u *)(const void *)high));
+}
+
+INLINE vec eights(vec bytes)
 {
     return bytes;
 }
 
-INLINE vec to_doubled(vec bytes)
+INLINE vec fours(vec bytes)
 {
     return bytes;
+}
+
+INLINE vec twice(vec bytes)
+{
+    return _mm_unpacklo_epi8(bytes, bytes);
 }
 
 INLINE int is_zero(vec bytes)
@@ -36,22 +47,9 @@ INLINE int is_zero(vec bytes)
     return _mm_movemask_epi8(_mm_cmpeq_epi8(bytes, _mm_setzero_si128())) == 0xFFFF;
 }
 
-INLINE int both_same(vec a, vec b, vec c, vec d)
+INLINE uint64_t equal_bytes(vec a, vec b)
 {
-    return _mm_movemask_epi8(_mm_and_si128(_mm_cmpeq_epi8(a, b), _mm_cmpeq_epi8(c, d))) == 0xFFFF;
-}
-
-/* Two bits for each of the pixels: there a run ends, there one begins. */
-INLINE uint64_t edge_bits(vec before, vec here, int from)
-{
-    const vec zero = _mm_setzero_si128(), same = _mm_cmpeq_epi8(before, here);
-    const vec no_end = _mm_or_si128(same, _mm_cmpeq_epi8(before, zero));
-    const vec no_begin = _mm_or_si128(same, _mm_cmpeq_epi8(here, zero));
-    const uint32_t low = (uint32_t)_mm_movemask_epi8(_mm_unpacklo_epi8(no_end, no_begin));
-    const uint32_t high = (uint32_t)_mm_movemask_epi8(_mm_unpackhi_epi8(no_end, no_begin));
-
-    (void)from;
-    return (uint32_t) ~(low | high << 16);
+    return (uint32_t)_mm_movemask_epi8(_mm_cmpeq_epi8(a, b));
 }
 
 /* The processor counts trailing zeros, but not those of 0, nor has it a count of bits. */
@@ -68,6 +66,26 @@ INLINE size_t bit_count(uint64_t bits)
     bits -= bits >> 1 & ones / 3;
     bits = (bits & ones / 5) + (bits >> 2 & ones / 5);
     return (size_t)(((bits + (bits >> 4)) & ones / 17) * (ones / 255) >> 56);
+}
+
+#include "row/row_nibbles_template.h"
+
+/* A half has no tables of its own here: all values are looked up twice. */
+typedef struct chroma_tables {
+    tables u, v;
+} chroma_tables;
+
+INLINE chroma_tables chroma_tables_of(const uint8_t *nibbles)
+{
+    const chroma_tables t = {tables_of(nibbles + PEL_NIBBLES_CHANNEL),
+                             tables_of(nibbles + 2 * PEL_NIBBLES_CHANNEL)};
+    return t;
+}
+
+INLINE vec chroma_masks(const chroma_tables *t, vec nibble, vec values)
+{
+    return _mm_and_si128(masks_of(&t->u, nibble, values),
+                         _mm_srli_si128(masks_of(&t->v, nibble, values), 8));
 }
 
 #include "row/row_classify_template.h"

@@ -1,7 +1,7 @@
 /*
  * The row kernels from pixels to runs that exist for x86, one name for each instruction set. They
  * equal those of row.h bit for bit. classify_nibbles says how many pixels it did, the first ones,
- * and the rest is for the caller; the others take rows of PEL_ROW_BLOCK_... pixels or more.
+ * and the rest is for the caller; the others take rows of a vector or more.
  */
 #ifndef PEL_ROW_X86_H
 #define PEL_ROW_X86_H
@@ -12,7 +12,7 @@
 #if defined(__GNUC__) && defined(__x86_64__)
 #define PEL_ROW_X86 1
 
-enum { PEL_ROW_BLOCK_SSSE3 = 32, PEL_ROW_BLOCK_AVX2 = 64, PEL_ROW_BLOCK_AVX512 = 128 };
+enum { PEL_ROW_VECTOR_SSSE3 = 16, PEL_ROW_VECTOR_AVX2 = 32, PEL_ROW_VECTOR_AVX512 = 64 };
 
 #define PEL_ROW_KERNELS(isa)                                                                       \
     uint16_t pel_row_classify_nibbles_##isa(const uint8_t *nibbles, const pel_row_pairs *src,      \
