@@ -38,12 +38,15 @@ static inline uint8_t label_of(pel_class_mask mask)
 #elif defined(__OPTIMIZE_SIZE__)
 static inline uint8_t label_of(pel_class_mask mask)
 {
-    uint8_t label = 0;
+    uint8_t label = 1;
 
-    for (pel_class_mask bits = mask; bits != 0; bits = (pel_class_mask)(bits << 1)) {
+    if (mask == 0) {
+        return 0;
+    }
+    for (pel_class_mask bits = mask; (bits & 1) == 0; bits = (pel_class_mask)(bits >> 1)) {
         label++;
     }
-    return mask == 0 ? 0 : (uint8_t)(PEL_CLASS_MAX + 1 - label);
+    return label;
 }
 #else
 /* The label of each 8-bit mask: 1 + the place of its lowest bit. Looking it up is faster than
@@ -68,7 +71,6 @@ static inline uint8_t label_of(pel_class_mask mask)
     return bits == 0 ? 0 : (uint8_t)(below + label_of_mask[bits & 255]);
 #endif
 }
-#endif
 
 /* The same of a mask that is not 0. */
 static inline uint8_t label_of_some(pel_class_mask mask)
@@ -79,6 +81,7 @@ static inline uint8_t label_of_some(pel_class_mask mask)
     return label_of(mask);
 #endif
 }
+#endif
 
 uint8_t pel_row_label(pel_class_mask mask)
 {
@@ -171,65 +174,75 @@ void pel_row_classify_lut(const pel_row_lut *lut, const uint8_t *y, const uint8_
 #if defined(__OPTIMIZE_SIZE__)
 /* ---- Runs ---------------------------------------------------------------------------------- */
 
-/* The next place for an edge, after the label has changed at x. */
-static uint16_t *change(unsigned before, unsigned label, uint16_t x, uint16_t *edge)
-{
-    if (before != 0) {
-        *edge++ = x;
-    }
-    if (label != 0) {
-        *edge++ = x;
-    }
-    return edge;
-}
-
 uint16_t pel_row_find_runs(const uint8_t *labels, uint16_t count, uint16_t *edges)
 {
     uint16_t *edge = edges;
     unsigned before = 0;
 
-    for (uint16_t x = 0; x < count; x++) {
-        const unsigned label = labels[x];
+    for (uint16_t x = 0; x <= count; x++) {
+        const unsigned label = x < count ? labels[x] : 0;
         if (label != before) {
-            edge = change(before, label, x, edge);
+            if (before != 0) {
+                *edge++ = x;
+            }
+            if (label != 0) {
+                *edge++ = x;
+            }
             before = label;
         }
     }
-    edge = change(before, 0, count, edge);
     return (uint16_t)((size_t)(edge - edges) / 2);
 }
 
-/* The chroma of a pair is looked up once, and Y only if the chroma is that of a class. */
+/* The mask changes at x, not always the label: one of its edges may be there. */
+APART uint16_t *change(pel_class_mask before, pel_class_mask mask, uint16_t x, uint8_t *labels,
+                       uint16_t *edge)
+{
+    const uint8_t label = label_of(mask);
+
+    if (before != 0) {
+        if (label == labels[edge[-1]]) {
+            return edge;
+        }
+        *edge++ = x;
+    }
+    if (label != 0) {
+        *edge++ = x;
+        labels[x] = label;
+    }
+    return edge;
+}
+
+/* Y is looked up only where the chroma is that of a class or a run is open. */
 uint16_t pel_row_classify_runs(const pel_row_boxes *boxes, const pel_row_pairs *src, uint16_t count,
                                uint8_t *labels, uint16_t *edges)
 {
-    const pel_class_mask *const of_y = boxes->y, *const of_u = boxes->u, *const of_v = boxes->v;
-    const uint8_t *y = src->y, *u = src->u, *v = src->v;
-    const size_t y_step = src->y_step, c_step = src->c_step;
+    const pel_class_mask *const of_u = boxes->u, *const of_v = boxes->v;
+    const uint8_t *u = src->u, *v = src->v;
     uint16_t *edge = edges;
-    pel_class_mask chroma = 0, mask_before = 0;
-    uint8_t before = 0;
+    pel_class_mask before = 0;
+    unsigned x = 0;
 
-    for (uint16_t x = 0; x < count; x++) {
-        pel_class_mask mask;
-        if (x % 2 == 0) {
-            chroma = of_u[*u] & of_v[*v];
-            u += c_step;
-            v += c_step;
+    while (x < count) {
+        const pel_class_mask chroma = of_u[*u] & of_v[*v];
+        u += src->c_step;
+        v += src->c_step;
+        if ((chroma | before) == 0) {
+            x += 2;
+            continue;
         }
-        mask = chroma & of_y[*y];
-        y += y_step;
-        if (mask != mask_before) {
-            const uint8_t label = label_of(mask);
-            if (label != before) {
-                edge = change(before, label, x, edge);
-                labels[x] = label;
-                before = label;
+        do {
+            const pel_class_mask mask = chroma & boxes->y[src->y[x * src->y_step]];
+            if (mask != before) {
+                edge = change(before, mask, (uint16_t)x, labels, edge);
+                before = mask;
             }
-            mask_before = mask;
-        }
+            x++;
+        } while (x % 2 != 0 && x < count);
     }
-    edge = change(before, 0, count, edge);
+    if (before != 0) {
+        *edge++ = count;
+    }
     return (uint16_t)((size_t)(edge - edges) / 2);
 }
 
