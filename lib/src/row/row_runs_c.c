@@ -400,7 +400,7 @@ INLINE int coloured(const pair_row *row, unsigned layout, const uint8_t *pair, p
         return 0;
     }
     *masks = luma_masks(row, layout, pair, chroma);
-    return (masks->left | masks->right) != 0;
+    return masks->left != 0 || masks->right != 0;
 }
 
 /* The next pair with a pixel in a class, and its masks; NULL if there is none. Most pixels are
@@ -541,43 +541,49 @@ inside:
     return edge;
 }
 
-APART uint16_t *runs_y_first(const pair_row *row, size_t pairs, uint8_t *labels, uint16_t *edges)
+/* Packed pairs: of the chroma bytes, the first may be U or V. */
+INLINE uint16_t *runs_packed(const pel_row_boxes *boxes, const pel_row_pairs *src, unsigned layout,
+                             size_t pairs, uint8_t *labels, uint16_t *edges)
 {
-    const pair_row here = *row;
-    return runs_of_pairs(&here, Y_FIRST, pairs, labels, edges);
+    const int swap = src->v < src->u;
+    const uint8_t *const chroma = swap ? src->v : src->u;
+    const pair_row row = {boxes->y,
+                          swap ? boxes->v : boxes->u,
+                          swap ? boxes->u : boxes->v,
+                          layout == Y_FIRST ? src->y : chroma,
+                          NULL,
+                          NULL,
+                          0};
+    return runs_of_pairs(&row, layout, pairs, labels, edges);
+}
+APART uint16_t *runs_y_first(const pel_row_boxes *boxes, const pel_row_pairs *src, size_t pairs,
+                             uint8_t *labels, uint16_t *edges)
+{
+    return runs_packed(boxes, src, Y_FIRST, pairs, labels, edges);
 }
 
-APART uint16_t *runs_y_second(const pair_row *row, size_t pairs, uint8_t *labels, uint16_t *edges)
+APART uint16_t *runs_y_second(const pel_row_boxes *boxes, const pel_row_pairs *src, size_t pairs,
+                              uint8_t *labels, uint16_t *edges)
 {
-    const pair_row here = *row;
-    return runs_of_pairs(&here, Y_SECOND, pairs, labels, edges);
+    return runs_packed(boxes, src, Y_SECOND, pairs, labels, edges);
 }
 
-APART uint16_t *runs_planes(const pair_row *row, size_t pairs, uint8_t *labels, uint16_t *edges)
+APART uint16_t *runs_planes(const pel_row_boxes *boxes, const pel_row_pairs *src, size_t pairs,
+                            uint8_t *labels, uint16_t *edges)
 {
-    const pair_row here = *row;
-    return runs_of_pairs(&here, PLANES, pairs, labels, edges);
+    const pair_row row = {boxes->y, boxes->u, boxes->v, src->y, src->u, src->v, src->c_step};
+    return runs_of_pairs(&row, PLANES, pairs, labels, edges);
 }
 
 /* The runs of the pairs, the last one perhaps left open. */
 static uint16_t *find_in_pairs(const pel_row_boxes *boxes, const pel_row_pairs *src, size_t pairs,
                                uint8_t *labels, uint16_t *edges)
 {
-    pair_row row = {boxes->y, boxes->u, boxes->v, src->y, src->u, src->v, src->c_step};
-
     if (src->y_step != 2) {
-        return runs_planes(&row, pairs, labels, edges);
+        return runs_planes(boxes, src, pairs, labels, edges);
     }
-    if (src->v < src->u) {
-        row.of_u = boxes->v;
-        row.of_v = boxes->u;
-        row.u = src->v;
-    }
-    if (src->y < row.u) {
-        return runs_y_first(&row, pairs, labels, edges);
-    }
-    row.first = row.u;
-    return runs_y_second(&row, pairs, labels, edges);
+    return src->y < src->u && src->y < src->v ? runs_y_first(boxes, src, pairs, labels, edges)
+                                              : runs_y_second(boxes, src, pairs, labels, edges);
 }
 
 /* The pixel behind the last pair. */
