@@ -125,23 +125,38 @@ static void put_row_below(const pel_filter *f, unsigned below)
     }
 }
 
-/* The rows around row y of the picture, at the first pixel that has a result: the last one that was
- * pushed and those before it; where the picture ends, `below` more of those under it. Rows outside
- * that are copies are elsewhere. */
-static void window_at(const pel_filter *f, int32_t y, unsigned below, const uint8_t *rows[5])
+/* Of the rows around row y of the picture those outside it: `below` ones under it go into their
+ * slots, if they have not; those that are copies are where the copied ones are. */
+void pel_i_filter_rows_outside(const pel_filter *f, unsigned y, unsigned below,
+                               const uint8_t *rows[5])
 {
-    const int32_t r = f->radius;
-    const int32_t x = f->config.border == PEL_BORDER_VALID ? r : 0;
-    unsigned slot = slot_after(f, below);
+    const int32_t r = f->radius, top = (int32_t)y - r;
 
-    for (int32_t j = y - r; j <= y + r; j++) {
-        *rows++ = slot_at(f, slot) + x;
-        slot = slot < 2u * f->radius ? slot + 1 : 0;
-        if ((uint32_t)j >= f->config.height && f->config.border != PEL_BORDER_WRAP) {
-            const int32_t copy = pel_border_index(j, f->config.height, f->config.border);
-            if (copy >= 0) {
-                rows[-1] = slot_at(f, (size_t)(copy % (2 * r + 1))) + x;
-            }
+    for (unsigned i = 1; i <= below; i++) {
+        put_row_below(f, i);
+    }
+    for (int32_t i = 0; i <= 2 * r && f->config.border != PEL_BORDER_WRAP; i++) {
+        const int32_t copy = pel_border_index(top + i, f->config.height, f->config.border);
+        if (copy >= 0 && copy != top + i) {
+            rows[i] = slot_at(f, (size_t)(copy % (2 * r + 1)));
+        }
+    }
+}
+
+/* The rows in the slots, at the first pixel that has a result, from the `below`th one on after that
+ * of the next row to be pushed: at 0 the oldest one is the first. */
+static void rows_of_slots(const pel_filter *f, unsigned below, const uint8_t *rows[5])
+{
+    const unsigned r = f->radius, slots = 2 * r + 1;
+    const size_t bytes = slot_bytes(f), x = f->config.border == PEL_BORDER_VALID ? r : 0;
+    unsigned until_last = slots - slot_after(f, below);
+    const uint8_t *row = slot_at(f, slots - until_last) + x;
+
+    for (unsigned i = 0; i < slots; i++) {
+        rows[i] = row;
+        row += bytes;
+        if (--until_last == 0) {
+            row -= slots * bytes;
         }
     }
 }
@@ -268,10 +283,10 @@ static uint16_t next_window(pel_filter *f, const uint8_t *rows[5])
     const unsigned centre = f->row + (f->config.border == PEL_BORDER_VALID ? f->radius : 0u);
     const unsigned below = centre + f->radius + 1 - f->pushed;
 
-    for (unsigned i = 1; i <= below; i++) {
-        put_row_below(f, i);
+    rows_of_slots(f, below, rows);
+    if (below > 0 || centre < f->radius) {
+        pel_i_filter_rows_outside(f, centre, below, rows);
     }
-    window_at(f, (int32_t)centre, below, rows);
     f->row++;
     return less_border(f->config.width, &f->config, f->radius);
 }
