@@ -150,6 +150,11 @@ PEL_DSP const uint8_t *opaque(const uint8_t *place)
     return place;
 }
 
+PEL_DSP uint8_t *opaque_to_write(uint8_t *place)
+{
+    return place;
+}
+
 PEL_DSP void in_order(void)
 {
 }
@@ -239,6 +244,12 @@ PEL_DSP uint32_t in_register(uint32_t value)
 /* A place that compilers do not know: else they turn several that advance alike into one offset and
  * additions to it. */
 PEL_DSP const uint8_t *opaque(const uint8_t *place)
+{
+    __asm__("" : "+r"(place));
+    return place;
+}
+
+PEL_DSP uint8_t *opaque_to_write(uint8_t *place)
 {
     __asm__("" : "+r"(place));
     return place;

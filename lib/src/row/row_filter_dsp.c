@@ -48,13 +48,12 @@ void pel_row_copy_dsp(const uint8_t *restrict src, uint16_t count, uint8_t *rest
     }
 }
 
-/* The last count % 8 results of a row go the plain way. */
-static int rest_of(const uint8_t *const rows[], uint16_t count, const uint8_t *rest[3])
+/* The rows from column x on: what is left goes the plain way. */
+static void find_rest(const uint8_t *const rows[], unsigned x, const uint8_t *rest[3])
 {
     for (unsigned i = 0; i < 3; i++) {
-        rest[i] = rows[i] + (count & ~7u);
+        rest[i] = rows[i] + x;
     }
-    return count & 7;
 }
 
 /* Where a step reads and writes. */
@@ -82,6 +81,12 @@ PEL_DSP uint32_t next4(const uint8_t **at)
     return word;
 }
 
+PEL_DSP void put4(places *at, uint32_t word)
+{
+    store4(at->out, word);
+    at->out = opaque_to_write(at->out + 4);
+}
+
 /* ---- Gauss --------------------------------------------------------------------------------- */
 
 /* The sums 1 2 1 of columns, at most 1020; columns 3 and 1 have 4 more: every result takes two of
@@ -102,8 +107,7 @@ PEL_DSP gauss_lanes gauss_step(places *at, gauss_lanes before, uint32_t upper_by
     c02 = lower_and_upper(before.c42, now.c42);
     first = add_swapped(lower_and_upper(before.c31, now.c31) + 2 * c02, now.c31);
     second = add_swapped(add_swapped_twice(c02, now.c31), now.c42);
-    store4(at->out, add_bytes_02(second << 4 & upper_bytes, first >> 4));
-    at->out += 4;
+    put4(at, add_bytes_02(second << 4 & upper_bytes, first >> 4));
     return now;
 }
 
@@ -131,7 +135,8 @@ void pel_row_gauss3_dsp(const uint8_t *const rows[], uint16_t count, uint8_t *re
         odd = gauss_step(&at, even, upper_bytes);
         (void)gauss_step(&at, odd, upper_bytes);
     }
-    if (rest_of(rows, count, rest)) {
+    if (count & 7) {
+        find_rest(rows, count & ~7u, rest);
         pel_row_gauss3(rest, count & 7, at.out);
     }
 }
@@ -184,8 +189,7 @@ PEL_DSP sobel_lanes sobel_step(places *at, sobel_lanes before)
     first = half_size(lower02, lower_and_upper(before.upper.square31, now.upper.square31), upper02,
                       lower_and_upper(before.lower.square31, now.lower.square31));
     second = half_size(now.lower.square31, swapped(upper02), now.upper.square31, swapped(lower02));
-    store4(at->out, doubled_bytes(first | (second >> 8 | second << 24)));
-    at->out += 4;
+    put4(at, doubled_bytes(first | (second >> 8 | second << 24)));
     return now;
 }
 
@@ -211,7 +215,8 @@ void pel_row_gradient_abs_dsp(const uint8_t *const rows[], uint16_t count, uint8
         odd = sobel_step(&at, even);
         even = sobel_step(&at, odd);
     }
-    if (rest_of(rows, count, rest)) {
+    if (count & 7) {
+        find_rest(rows, count & ~7u, rest);
         pel_row_gradient_abs(rest, count & 7, at.out);
     }
 }
@@ -303,8 +308,12 @@ void pel_row_kernel3_dsp(const uint8_t *const rows[], const int8_t *tap, const p
         kernel3_step(&at, &taps, start);
         kernel3_step(&at, &taps, start);
     }
-    if (rest_of(rows, count, rest)) {
-        pel_row_kernel3(rest, tap, scale, count & 7, at.out);
+    for (unsigned i = count & 6; i > 0; i -= 2) {
+        kernel3_step(&at, &taps, start);
+    }
+    if (count & 1) {
+        find_rest(rows, count - 1u, rest);
+        pel_row_kernel3(rest, tap, scale, 1, at.out);
     }
 }
 
