@@ -16,6 +16,7 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/row/row_mve.c
     ${PEL_LIB_DIR}/src/row/row_filter_c.c
     ${PEL_LIB_DIR}/src/row/row_filter_dsp.c
+    ${PEL_LIB_DIR}/src/row/row_filter_order_dsp.c
     ${PEL_LIB_DIR}/src/row/row_filter_mve.c
     ${PEL_LIB_DIR}/src/row/row_filter_narrow.c
     ${PEL_LIB_DIR}/src/row/row_filter_ssse3.c

@@ -40,6 +40,38 @@ PEL_DSP uint32_t limited_lanes(uint32_t lanes)
     return (lower > 255 ? 255 : lower) | (upper > 255 ? 255 : upper) << 16;
 }
 
+/* Byte by byte the smaller and the larger one. */
+PEL_DSP uint32_t smaller_bytes(uint32_t a, uint32_t b)
+{
+    uint32_t bytes = 0;
+
+    for (unsigned i = 0; i < 32; i += 8) {
+        const uint32_t x = a >> i & 255, y = b >> i & 255;
+        bytes |= (x < y ? x : y) << i;
+    }
+    return bytes;
+}
+
+PEL_DSP uint32_t larger_bytes(uint32_t a, uint32_t b)
+{
+    uint32_t bytes = 0;
+
+    for (unsigned i = 0; i < 32; i += 8) {
+        const uint32_t x = a >> i & 255, y = b >> i & 255;
+        bytes |= (x < y ? y : x) << i;
+    }
+    return bytes;
+}
+
+/* Both: a the smaller, b the larger one. */
+PEL_DSP void sort_bytes(uint32_t *a, uint32_t *b)
+{
+    const uint32_t smaller = smaller_bytes(*a, *b);
+
+    *b = larger_bytes(*a, *b);
+    *a = smaller;
+}
+
 /* Each byte twice, but not above 255. */
 PEL_DSP uint32_t doubled_bytes(uint32_t word)
 {
@@ -228,6 +260,31 @@ PEL_DSP_ONE(limited_lanes, "usat16 %0, #8, %1")
 PEL_DSP_TWO(lower_and_upper, "pkhbt %0, %1, %2")
 PEL_DSP_TWO(lower_lanes, "pkhbt %0, %1, %2, lsl #16")
 PEL_DSP_TWO(upper_lanes, "pkhtb %0, %2, %1, asr #16")
+/* SEL takes the first where USUB8 went without a borrow. */
+PEL_DSP uint32_t smaller_bytes(uint32_t a, uint32_t b)
+{
+    uint32_t bytes;
+    __asm__("usub8 %0, %1, %2\n\tsel %0, %2, %1" : "=&r"(bytes) : "r"(a), "r"(b));
+    return bytes;
+}
+
+PEL_DSP uint32_t larger_bytes(uint32_t a, uint32_t b)
+{
+    uint32_t bytes;
+    __asm__("usub8 %0, %1, %2\n\tsel %0, %1, %2" : "=&r"(bytes) : "r"(a), "r"(b));
+    return bytes;
+}
+
+PEL_DSP void sort_bytes(uint32_t *a, uint32_t *b)
+{
+    uint32_t smaller;
+    __asm__("usub8 %0, %1, %2\n\tsel %0, %2, %1\n\tsel %1, %1, %2"
+            : "=&r"(smaller), "+r"(*a)
+            : "r"(*b));
+    *b = *a;
+    *a = smaller;
+}
+
 #define PEL_DSP_BYTES(name, turn)                                                                  \
     PEL_DSP_ONE(bytes_##name, "uxtb16 %0, %1, ror #" #turn)                                        \
     PEL_DSP_TWO(add_bytes_##name, "uxtab16 %0, %1, %2, ror #" #turn)
