@@ -18,6 +18,7 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/row/row_filter_dsp.c
     ${PEL_LIB_DIR}/src/row/row_filter_order_dsp.c
     ${PEL_LIB_DIR}/src/row/row_filter_mve.c
+    ${PEL_LIB_DIR}/src/row/row_filter_taps_mve.c
     ${PEL_LIB_DIR}/src/row/row_filter_narrow.c
     ${PEL_LIB_DIR}/src/row/row_filter_ssse3.c
     ${PEL_LIB_DIR}/src/row/row_filter_avx2.c
