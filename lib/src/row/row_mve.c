@@ -285,6 +285,18 @@ static run_writer find_runs_by_label(run_writer writer, const uint8_t *labels, u
     return writer;
 }
 
+uint16_t pel_row_find_runs_mve(const uint8_t *labels, uint16_t count, uint16_t *edges)
+{
+    const unsigned done = count - count % (unsigned)BLOCK;
+    run_writer writer = {edges, edges + 1, 0};
+
+    for (unsigned x = 0; x < done; x += BLOCK) {
+        writer = scan_block(writer, labels + x, x);
+    }
+    writer = find_runs_by_label(writer, labels, done, count);
+    return (uint16_t)((size_t)(writer.begin - edges) / 2);
+}
+
 uint16_t pel_row_classify_runs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
                                    uint16_t count, uint8_t *labels, uint16_t *edges)
 {
@@ -299,7 +311,7 @@ uint16_t pel_row_classify_runs_mve(const pel_row_boxes *boxes, const pel_row_pai
         writer = runs_chroma_first(s, labels, labels + done, edges);
     } else {
         pel_row_classify_pairs_mve(boxes, src, count, labels);
-        return pel_row_find_runs(labels, count, edges);
+        return pel_row_find_runs_mve(labels, count, edges);
     }
     if (done < count) {
         const pel_row_pairs rest = rest_of(src, done);

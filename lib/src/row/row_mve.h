@@ -15,12 +15,15 @@
 #if PEL_ROW_MVE && PEL_CLASS_MAX == 8
 void pel_row_classify_pairs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
                                 uint16_t count, uint8_t *labels);
+uint16_t pel_row_find_runs_mve(const uint8_t *labels, uint16_t count, uint16_t *edges);
 uint16_t pel_row_classify_runs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
                                    uint16_t count, uint8_t *labels, uint16_t *edges);
 #define PEL_BEST_CLASSIFY_PAIRS pel_row_classify_pairs_mve
+#define PEL_BEST_FIND_RUNS pel_row_find_runs_mve
 #define PEL_BEST_CLASSIFY_RUNS pel_row_classify_runs_mve
 #else
 #define PEL_BEST_CLASSIFY_PAIRS pel_row_classify_pairs
+#define PEL_BEST_FIND_RUNS pel_row_find_runs
 #define PEL_BEST_CLASSIFY_RUNS pel_row_classify_runs
 #endif
 

@@ -29,7 +29,7 @@ static inline uint16_t pel_i_row_find_runs(pel_backend backend, const uint8_t *l
                                            uint16_t count, uint16_t *edges)
 {
     PEL_ROW_TRY_RUNS(find_runs, (labels, count, edges))
-    return pel_row_find_runs(labels, count, edges);
+    return PEL_BEST_FIND_RUNS(labels, count, edges);
 }
 
 /* nibbles are those of the boxes; not looked at by SCALAR. */

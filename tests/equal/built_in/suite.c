@@ -193,6 +193,29 @@ static void test_runs_of_pixels(void)
     visit(compare_runs);
 }
 
+/* Labels of every kind of the patterns, or few of them, so that runs are long and short. */
+static void compare_runs_of_labels(uint16_t width, unsigned offset)
+{
+    static const uint8_t masks[] = {0xFF, 0x07, 0x01, 0x80};
+
+    for (unsigned i = 0; i < sizeof masks; i++) {
+        uint8_t *const labels = guarded(offset);
+        uint16_t expected, count;
+        for (unsigned x = 0; x < width; x++) {
+            labels[x] = bytes[0][x] & masks[i];
+        }
+        expected = pel_row_find_runs(labels, width, plain_edges);
+        fill(fast_edges, sizeof fast_edges);
+        count = PEL_BEST_FIND_RUNS(labels, width, fast_edges);
+        expect_runs(width, expected, count);
+    }
+}
+
+static void test_runs_of_labels(void)
+{
+    visit(compare_runs_of_labels);
+}
+
 /* ---- Neighbourhoods ------------------------------------------------------------------------ */
 
 /* A column on either side of the results, two for radius 2, may be read. */
@@ -340,6 +363,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_labels);
+    RUN_TEST(test_runs_of_labels);
     RUN_TEST(test_runs_of_pixels);
     RUN_TEST(test_gauss3);
     RUN_TEST(test_box3);
