@@ -137,5 +137,5 @@ pel_status pel_blobs_end(pel_blobs *b, uint32_t *count)
 
 uint16_t pel_find_runs(const uint8_t *labels, uint16_t width, pel_run *runs)
 {
-    return labels && runs ? pel_row_find_runs(labels, width, &runs->x0) : 0;
+    return labels && runs ? pel_i_row_find_runs(PEL_ROW_BUILT_IN, labels, width, &runs->x0) : 0;
 }
