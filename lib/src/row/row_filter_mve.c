@@ -11,6 +11,8 @@
 #if PEL_ROW_MVE
 #include "row/row_filter_mve_lanes.h"
 
+#define INLINE __attribute__((always_inline)) static inline
+
 /*
  * The kernel of a name from its function for whole vectors, `name`(rows, count, out); rows of less
  * than one are for the plain version.

@@ -6,16 +6,14 @@
 
 #include "row/row_filter_mve.h"
 
-#define INLINE __attribute__((always_inline)) static inline
-
 enum { WORDS = 8, BYTES = 16 };
 
-INLINE int16x8_t with_sign(uint16x8_t lanes)
+static inline int16x8_t with_sign(uint16x8_t lanes)
 {
     return vreinterpretq_s16_u16(lanes);
 }
 
-INLINE uint16x8_t without_sign(int16x8_t lanes)
+static inline uint16x8_t without_sign(int16x8_t lanes)
 {
     return vreinterpretq_u16_s16(lanes);
 }
@@ -25,7 +23,7 @@ typedef struct window {
     const uint8_t *rows[5];
 } window;
 
-INLINE window window_at(const uint8_t *const rows[], unsigned radius, unsigned x)
+static inline window window_at(const uint8_t *const rows[], unsigned radius, unsigned x)
 {
     window w;
 

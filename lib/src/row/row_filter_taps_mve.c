@@ -9,6 +9,8 @@
 #include "row/row_filter_mve_lanes.h"
 #include "row/row_filter_narrow.h"
 
+#define INLINE __attribute__((always_inline)) static inline
+
 /* The outer two taps of a row in one register, and the middle one. */
 typedef struct taps3 {
     uint32_t outer;
