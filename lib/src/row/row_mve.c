@@ -207,6 +207,19 @@ INLINE uint8x16_t one_before(uint8x16_t labels, uint32_t *before)
     return labels;
 }
 
+/* Bit i: whether elements i differ. One compiler doubts that the upper half of a predicate in a core
+ * register is 0, another does not know the name of the predicate. */
+INLINE uint32_t different(uint8x16_t a, uint8x16_t b)
+{
+#if defined(__clang__)
+    return vcmpneq_u8(a, b);
+#else
+    uint32_t bits;
+    __asm__("vcmp.i8 ne, %q1, %q2\n\tvmrs %0, p0" : "=r"(bits) : "t"(a), "t"(b) : "p0");
+    return bits;
+#endif
+}
+
 /* Writes x + the places of the bits, to every second place. */
 INLINE uint16_t *put_places(uint16_t *edge, uint32_t bits, uint32_t x)
 {
@@ -226,11 +239,12 @@ INLINE run_writer scan_block(run_writer writer, const uint8_t *labels, uint32_t 
     const uint32_t before = writer.label != 0;
     const uint8x16_t before_first = one_before(first, &writer.label);
     const uint8x16_t before_second = one_before(second, &writer.label);
-    const uint32_t changes =
-        vcmpneq_u8(first, before_first) | (uint32_t)vcmpneq_u8(second, before_second) << 16;
+    const uint32_t changes = different(first, before_first) | different(second, before_second)
+                                                                  << 16;
 
     if (changes != 0) {
-        const uint32_t inside = vcmpneq_n_u8(first, 0) | (uint32_t)vcmpneq_n_u8(second, 0) << 16;
+        const uint8x16_t none = vdupq_n_u8(0);
+        const uint32_t inside = different(first, none) | different(second, none) << 16;
         writer.begin = put_places(writer.begin, changes & inside, x);
         writer.end = put_places(writer.end, changes & (inside << 1 | before), x);
     }
@@ -247,11 +261,12 @@ INLINE run_writer find_runs(source s, layout how, uint8_t *labels, const uint8_t
     while (at != end) {
         const pixels p = next_pixels(&s, how);
         const uint8x16_t chroma = chroma_masks(&s, &p);
-        if (vaddvaq_u8(writer.label, chroma) != 0) {
-            put_labels(&s, &p, chroma, at);
-            writer = scan_block(writer, at, (uint32_t)(at - labels));
-        }
         at += BLOCK;
+        if ((vaddvq_u8(chroma) | writer.label) == 0) {
+            continue;
+        }
+        put_labels(&s, &p, chroma, at - BLOCK);
+        writer = scan_block(writer, at - BLOCK, (uint32_t)(at - BLOCK - labels));
     }
     return writer;
 }
