@@ -44,19 +44,20 @@ INLINE parities ready(parities sums)
     return sums;
 }
 
-/* The taps of a row, one in each place; the rest is 0. */
+/* The taps of a row, one in each place; the rest is 0. Sums may pass 16 bits on the way: without a
+ * sign, C says what they are then. */
 typedef struct taps3 {
-    int16x8_t tap;
+    uint16x8_t tap;
 } taps3;
 
 typedef struct taps5 {
-    int16x8_t tap;
+    uint16x8_t tap;
 } taps5;
 
 INLINE taps5 taps5_of(int a, int b, int c, int d, int e)
 {
     const int16_t places[8] = {(int16_t)a, (int16_t)b, (int16_t)c, (int16_t)d, (int16_t)e, 0, 0, 0};
-    const taps5 taps = {vld1q_s16(places)};
+    const taps5 taps = {vreinterpretq_u16_s16(vld1q_s16(places))};
     return taps;
 }
 
@@ -67,8 +68,8 @@ INLINE taps3 taps3_of(int a, int b, int c)
 }
 
 /* sum + v * tap number `n`, a constant. */
-#define PLUS(sum, v, taps, n) vmlaq_laneq_s16(sum, as_s16(v), (taps)->tap, n)
-#define TIMES(v, taps, n) vmulq_laneq_s16(as_s16(v), (taps)->tap, n)
+#define PLUS(sum, v, taps, n) vmlaq_laneq_u16(sum, as_u16(v), (taps)->tap, n)
+#define TIMES(v, taps, n) vmulq_laneq_u16(as_u16(v), (taps)->tap, n)
 
 /* Sums of three neighbours each; p is at the first place. The odd places of a vector of bytes are
  * the even ones of that which begins one further right. */
@@ -76,8 +77,8 @@ INLINE parities row_sum3(const uint8_t *p, const taps3 *taps)
 {
     const parities left = parities_of(load(p - 1)), right = parities_of(load(p + 1));
     const parities sums = {
-        of_s16(PLUS(PLUS(TIMES(left.even, taps, 0), left.odd, taps, 1), right.even, taps, 2)),
-        of_s16(PLUS(PLUS(TIMES(left.odd, taps, 0), right.even, taps, 1), right.odd, taps, 2))};
+        of_u16(PLUS(PLUS(TIMES(left.even, taps, 0), left.odd, taps, 1), right.even, taps, 2)),
+        of_u16(PLUS(PLUS(TIMES(left.odd, taps, 0), right.even, taps, 1), right.odd, taps, 2))};
     return sums;
 }
 
@@ -85,12 +86,12 @@ INLINE parities row_sum5(const uint8_t *p, const taps5 *taps)
 {
     const parities left = parities_of(load(p - 2)), here = parities_of(load(p));
     const parities right = parities_of(load(p + 2));
-    const int16x8_t even =
+    const uint16x8_t even =
         PLUS(PLUS(TIMES(left.even, taps, 0), left.odd, taps, 1), here.even, taps, 2);
-    const int16x8_t odd =
+    const uint16x8_t odd =
         PLUS(PLUS(TIMES(left.odd, taps, 0), here.even, taps, 1), here.odd, taps, 2);
-    const parities sums = {of_s16(PLUS(PLUS(even, here.odd, taps, 3), right.even, taps, 4)),
-                           of_s16(PLUS(PLUS(odd, right.even, taps, 3), right.odd, taps, 4))};
+    const parities sums = {of_u16(PLUS(PLUS(even, here.odd, taps, 3), right.even, taps, 4)),
+                           of_u16(PLUS(PLUS(odd, right.even, taps, 3), right.odd, taps, 4))};
     return sums;
 }
 
@@ -109,7 +110,7 @@ INLINE vec neon_srl_epi16(vec v, shift_count count)
 
 INLINE vec neon_srl_epi32(vec v, shift_count count)
 {
-    return vreinterpretq_u8_u32(vshlq_u32(vreinterpretq_u32_u8(v), vdupq_n_s32(count)));
+    return of_u32(vshlq_u32(as_u32(v), vdupq_n_s32(count)));
 }
 
 /* Even and odd places limited to bytes, in their order. */

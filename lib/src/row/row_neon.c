@@ -115,8 +115,8 @@ INLINE labels32 labels_under(const source *src, const pixels *p, uint8x16_t chro
 
 INLINE void store_labels(uint8_t *labels, labels32 found)
 {
-    const uint8x16x2_t pairs = {{found.even, found.odd}};
-    vst2q_u8(labels, pairs);
+    vst1q_u8(labels, vzip1q_u8(found.even, found.odd));
+    vst1q_u8(labels + 16, vzip2q_u8(found.even, found.odd));
 }
 
 static layout layout_of(const pel_row_pairs *src)

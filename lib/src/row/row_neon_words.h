@@ -26,6 +26,11 @@ static inline uint16x8_t as_u16(vec v)
     return vreinterpretq_u16_u8(v);
 }
 
+static inline uint32x4_t as_u32(vec v)
+{
+    return vreinterpretq_u32_u8(v);
+}
+
 static inline int32x4_t as_s32(vec v)
 {
     return vreinterpretq_s32_u8(v);
@@ -44,6 +49,11 @@ static inline vec of_s16(int16x8_t v)
 static inline vec of_u16(uint16x8_t v)
 {
     return vreinterpretq_u8_u16(v);
+}
+
+static inline vec of_u32(uint32x4_t v)
+{
+    return vreinterpretq_u8_u32(v);
 }
 
 static inline vec of_s32(int32x4_t v)
@@ -228,7 +238,7 @@ static inline vec neon_set1_epi32(int32_t value)
 
 static inline vec neon_add_epi32(vec a, vec b)
 {
-    return of_s32(vaddq_s32(as_s32(a), as_s32(b)));
+    return of_u32(vaddq_u32(as_u32(a), as_u32(b)));
 }
 
 static inline vec neon_abs_epi32(vec v)
