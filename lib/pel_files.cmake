@@ -43,6 +43,7 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/filter_ops.c
     ${PEL_LIB_DIR}/src/filter_kernel.c
     ${PEL_LIB_DIR}/src/filter_frame.c
+    ${PEL_LIB_DIR}/src/filter_direct.c
     ${PEL_LIB_DIR}/src/point_table.c
     ${PEL_LIB_DIR}/src/point_stats.c
     ${PEL_LIB_DIR}/src/point_combine.c

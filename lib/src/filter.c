@@ -1,7 +1,7 @@
 #include "pel/filter.h"
 
+#include "filter_compute.h"
 #include "filter_radius.h"
-#include "row/row_filter_select.h"
 
 /* ---- Borders ------------------------------------------------------------------------------- */
 
@@ -291,29 +291,9 @@ static uint16_t next_window(pel_filter *f, const uint8_t *rows[5])
     return less_border(f->config.width, &f->config, f->radius);
 }
 
-/*
- * How the sum of a kernel becomes a result: `start` makes it positive, 816000 being the largest,
- * and holds the half to be rounded; what it adds to the quotient is taken away again with the bias.
- * start <= 816000 + 3/2 * 32767 * 2^15 < 2^31.
- */
-static pel_row_scale scale_of(const pel_kernel *k)
-{
-    const uint32_t divisor = (uint32_t)(k->divisor == 0 ? 1 : k->divisor) << k->shift;
-    const uint32_t more = 816000 / divisor + 1;
-    pel_row_scale scale;
-
-    scale.start = more * divisor + divisor / 2;
-    scale.flip = k->absolute ? scale.start : 0;
-    scale.divisor = k->divisor <= 1 ? 0 : divisor;
-    scale.shift = k->shift;
-    scale.bias = k->bias - (int32_t)more;
-    return scale;
-}
-
 pel_status pel_filter_pull(pel_filter *f, uint8_t *out)
 {
     const uint8_t *rows[5];
-    pel_row_scale scale;
     uint16_t count;
 
     if (!f || !out) {
@@ -326,23 +306,13 @@ pel_status pel_filter_pull(pel_filter *f, uint8_t *out)
         return PEL_ERR_ORDER;
     }
     count = next_window(f, rows);
-    if (f->config.op) {
-        (void)f->config.op(rows, count, &f->config, out);
-        return PEL_OK;
-    }
-    scale = scale_of(f->config.kernel);
-    if (f->radius == 1) {
-        pel_i_row_kernel3(f->config.backend, rows, f->config.kernel->tap, &scale, count, out);
-    } else {
-        pel_i_row_kernel5(f->config.backend, rows, f->config.kernel->tap, &scale, count, out);
-    }
+    pel_i_filter_compute(&f->config, f->radius, rows, count, out);
     return PEL_OK;
 }
 
 pel_status pel_filter_pull_s16(pel_filter *f, int16_t *out)
 {
     const uint8_t *rows[5];
-    pel_row_scale scale;
     uint16_t count;
 
     if (!f || !out) {
@@ -355,15 +325,6 @@ pel_status pel_filter_pull_s16(pel_filter *f, int16_t *out)
         return PEL_ERR_ORDER;
     }
     count = next_window(f, rows);
-    if (f->config.op_s16) {
-        (void)f->config.op_s16(rows, count, &f->config, out);
-        return PEL_OK;
-    }
-    scale = scale_of(f->config.kernel);
-    if (f->radius == 1) {
-        pel_i_row_kernel3_s16(f->config.backend, rows, f->config.kernel->tap, &scale, count, out);
-    } else {
-        pel_i_row_kernel5_s16(f->config.backend, rows, f->config.kernel->tap, &scale, count, out);
-    }
+    pel_i_filter_compute_s16(&f->config, f->radius, rows, count, out);
     return PEL_OK;
 }

@@ -1,6 +1,7 @@
-/* Filters on whole frames: loops over push and pull. */
+/* Filters on whole frames: loops over push and pull, or what has the same results. */
 #include "pel/filter.h"
 
+#include "filter_direct.h"
 #include "filter_radius.h"
 #include "format.h"
 #include "frames.h"
@@ -35,6 +36,11 @@ static int fits(const pel_filter *filter, const pel_view *dst)
 /* All rows of a filter that has begun. */
 static void run(pel_filter *filter, const pel_cview *src, const pel_view *dst)
 {
+    const pel_filter_target target = {dst->plane[0], NULL, dst->stride_bytes[0]};
+
+    if (src->plane[0] != dst->plane[0] && pel_i_filter_direct(filter, src, &target)) {
+        return;
+    }
     for (uint16_t y = 0; y < src->height; y++) {
         pel_status status = pel_filter_push(filter, pel_i_row(src, y));
         while (filter->row < dst->height && status == PEL_OK) {
@@ -81,6 +87,13 @@ static pel_status check_words(const pel_cview *src, const int16_t *dst, int32_t 
                : PEL_OK;
 }
 
+static int direct_words(const pel_filter *filter, const pel_cview *src, int16_t *dst,
+                        int32_t stride)
+{
+    const pel_filter_target target = {NULL, dst, stride};
+    return pel_i_filter_direct(filter, src, &target);
+}
+
 pel_status pel_filter_frame_s16(const pel_filter_config *config, const pel_cview *src, int16_t *dst,
                                 int32_t stride)
 {
@@ -99,6 +112,9 @@ pel_status pel_filter_frame_s16(const pel_filter_config *config, const pel_cview
     }
     height = pel_filter_height(&filter.config);
     status = check_words(src, dst, stride, pel_filter_width(&filter.config), height);
+    if (status == PEL_OK && direct_words(&filter, src, dst, stride)) {
+        return PEL_OK;
+    }
     for (uint16_t y = 0; y < src->height && status == PEL_OK; y++) {
         (void)pel_filter_push(&filter, pel_i_row(src, y));
         while (filter.row < height && status == PEL_OK) {

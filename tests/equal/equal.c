@@ -1,7 +1,7 @@
 /*
  * Every row kernel with every backend that this machine has, against plain C, bit for bit:
  * widths from 0 to three vectors and three, offsets 0..31, eight kinds of patterns, and random
- * long rows; with canaries on both sides of the result. In a sanitized build the rows end where
+ * long rows; with canaries on both sides of the result. Then whole frames through filters. In a sanitized build the rows end where
  * their memory ends, so that a read behind them is seen, too.
  *
  *   equal [SEED]
@@ -162,6 +162,9 @@ int main(int argc, char **argv)
                 compare_all(kernel, (pel_backend)b, seed);
             }
         }
+        unsigned wrong = 0;
+        passed += equal_frames((pel_backend)b, seed, &wrong);
+        failed += wrong;
         printf("%s: %lu comparisons with plain C\n", pel_backend_name((pel_backend)b),
                passed + failed - before);
     }

@@ -35,6 +35,9 @@ extern const equal_kernel equal_color_kernels[], equal_filter_kernels[], equal_p
 /* A random number; the state moves on. */
 uint32_t equal_random(uint32_t *state);
 
+/* Filters random frames; returns how many are equal. */
+unsigned equal_frames(pel_backend backend, uint32_t seed, unsigned *failed);
+
 /* Whether the root that the kernels of x86 take in single precision, cut off, is the whole root of
  * every number that gx^2 + gy^2 can be. Elsewhere there is nothing to try. */
 int equal_roots_hold(void);

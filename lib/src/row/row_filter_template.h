@@ -19,6 +19,14 @@ INLINE vec load(const uint8_t *bytes)
     return BITS(loadu)((const loose_vec *)(const void *)bytes);
 }
 
+/* The same for what is used more than once: in a register, not read again for every use. */
+INLINE vec load_once(const uint8_t *bytes)
+{
+    vec value = load(bytes);
+    __asm__("" : "+x"(value));
+    return value;
+}
+
 INLINE void store(uint8_t *bytes, vec value)
 {
     BITS(storeu)((loose_vec *)(void *)bytes, value);
@@ -117,32 +125,33 @@ INLINE columns3 columns3_of(parities sums)
     return columns;
 }
 
-INLINE columns3 gauss_columns(vec a, vec b, vec c)
+/*
+ * Gauss: two neighbouring columns each, times 16. For an even place the pairs that begin at its
+ * left neighbour and at itself make 1 2 1, for the odd one behind it the latter and the one that
+ * begins at its right neighbour, which is the left one of the next even place. The largest is
+ * 65280: 16 bits without a sign, the result in the upper 8.
+ */
+INLINE vec gauss_pairs(vec a, vec b, vec c)
 {
-    const parities middle = parities_of(b);
-    return columns3_of(sum_of_parities(sum_of_parities(parities_of(a), parities_of(c)),
-                                       sum_of_parities(middle, middle)));
-}
-
-/* With columns e0 o0 e1 o1 ...: e0 + 2 o0 + e1 = (e0 + o0) + (o0 + e1), and o0 + 2 e1 + o1. */
-INLINE vec gauss_of(columns3 last, columns3 here)
-{
-    const vec middle =
-        V(add_epi16)(V(add_epi16)(MOVED(last.odd, here.odd, 2), here.even), V(set1_epi16)(8));
-    const vec even = V(add_epi16)(MOVED(last.both, here.both, 2), middle);
-    const vec odd = V(add_epi16)(middle, here.both);
-    return interleaved(V(srli_epi16)(even, 4), V(srli_epi16)(odd, 4));
+    const vec outer = V(set1_epi8)(16), inner = V(set1_epi8)(32);
+    return V(add_epi16)(V(add_epi16)(V(maddubs_epi16)(a, outer), V(maddubs_epi16)(b, inner)),
+                        V(maddubs_epi16)(c, outer));
 }
 
 ISA void KERNEL(gauss3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
+    const vec half = V(set1_epi16)(128), upper = V(set1_epi16)((int16_t)0xff00);
 
     for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
-        columns3 last = gauss_columns(two_at(a + x - 1), two_at(b + x - 1), two_at(c + x - 1));
+        vec last = gauss_pairs(two_at(a + x - 1), two_at(b + x - 1), two_at(c + x - 1));
         for (; x < end; x += LANES) {
-            const columns3 here = gauss_columns(load(a + x + 1), load(b + x + 1), load(c + x + 1));
-            store(out + x, gauss_of(last, here));
+            const vec here = gauss_pairs(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+            const vec middle =
+                V(add_epi16)(gauss_pairs(load(a + x), load(b + x), load(c + x)), half);
+            const vec even = V(add_epi16)(MOVED(last, here, 2), middle);
+            const vec odd = V(add_epi16)(middle, here);
+            store(out + x, BITS(or)(V(srli_epi16)(even, 8), BITS(and)(odd, upper)));
             last = here;
         }
     }
@@ -249,10 +258,10 @@ typedef struct diagonals {
 
 INLINE diagonals diagonals_at(const uint8_t *a, const uint8_t *b, const uint8_t *c, int one)
 {
-    const words d1 = rises(load(b - 1), load(b + 1), one);
-    const words d2 = rises(load(a), load(c), one);
-    const words d3 = rises(load(a - 1), load(c + 1), one);
-    const words d4 = rises(load(c - 1), load(a + 1), one);
+    const words d1 = rises(load_once(b - 1), load_once(b + 1), one);
+    const words d2 = rises(load_once(a), load_once(c), one);
+    const words d3 = rises(load_once(a - 1), load_once(c + 1), one);
+    const words d4 = rises(load_once(c - 1), load_once(a + 1), one);
     const diagonals d = {sum_of(sum_of(d1, d2), d3), sum_of(difference_of(d1, d2), d4)};
     return d;
 }
@@ -300,9 +309,9 @@ ISA void KERNEL(sobel_x)(const uint8_t *const rows[], uint16_t count, int16_t *o
 
     for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
         for (; x < end; x += LANES) {
-            const words upper = rises(load(a + x - 1), load(a + x + 1), 1);
-            const words middle = rises(load(b + x - 1), load(b + x + 1), 2);
-            const words lower = rises(load(c + x - 1), load(c + x + 1), 1);
+            const words upper = rises(load_once(a + x - 1), load_once(a + x + 1), 1);
+            const words middle = rises(load_once(b + x - 1), load_once(b + x + 1), 2);
+            const words lower = rises(load_once(c + x - 1), load_once(c + x + 1), 1);
             store_words(out + x, sum_of(sum_of(upper, middle), lower));
         }
     }
@@ -314,9 +323,9 @@ ISA void KERNEL(sobel_y)(const uint8_t *const rows[], uint16_t count, int16_t *o
 
     for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
         for (; x < end; x += LANES) {
-            const words left = rises(load(a + x - 1), load(c + x - 1), 1);
-            const words middle = rises(load(a + x), load(c + x), 2);
-            const words right = rises(load(a + x + 1), load(c + x + 1), 1);
+            const words left = rises(load_once(a + x - 1), load_once(c + x - 1), 1);
+            const words middle = rises(load_once(a + x), load_once(c + x), 2);
+            const words right = rises(load_once(a + x + 1), load_once(c + x + 1), 1);
             store_words(out + x, sum_of(sum_of(left, middle), right));
         }
     }

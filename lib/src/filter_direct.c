@@ -1,0 +1,216 @@
+#include "filter_direct.h"
+
+#if defined(PEL_ROW_FILTER_X86)
+#include "filter_compute.h"
+
+#define APART __attribute__((noinline)) /* so that a frame of the stack is no sum of all */
+
+/*
+ * The results whose neighbours all lie inside are computed row by row from the rows of the picture.
+ * The r on either side need pixels that lie nowhere: for these each row has a record of 6r bytes,
+ *
+ *     r outside, the first 2r, the last 2r, r outside
+ *
+ * in which the first and the last r results have all their neighbours. Records of rows that follow
+ * each other lie side by side, so that one long row of a few dozen records is filtered at once, the
+ * rows above and below it being the same memory, records earlier and later.
+ */
+enum {
+    WIDTH_MIN = 96, /* less is not worth it, and leaves too little room for records */
+    ROWS_MAX = 16   /* so that the sides of rows are still in the cache when their turn comes */
+};
+
+/* The working memory: a row of constants, if the border wants it, then records and results. */
+typedef struct direct {
+    const pel_filter *filter;
+    const pel_cview *src;
+    pel_filter_target dst;
+    uint8_t *records;
+    unsigned rows_max; /* whose records and results fit */
+} direct;
+
+/* Row y of the picture, or what stands for it outside. */
+static const uint8_t *row_at(const direct *d, int32_t y)
+{
+    const pel_filter_config *const c = &d->filter->config;
+    const int is_inside = (uint32_t)y < c->height;
+    const int32_t found = is_inside ? y : pel_border_index(y, c->height, c->border);
+
+    return found < 0 ? c->work : d->src->plane[0] + (ptrdiff_t)found * d->src->stride_bytes[0];
+}
+
+static void compute(const direct *d, const uint8_t *const rows[], uint16_t count,
+                    const pel_filter_target *to)
+{
+    const pel_filter *const f = d->filter;
+
+    if (to->bytes) {
+        pel_i_filter_compute(&f->config, f->radius, rows, count, to->bytes);
+    } else {
+        pel_i_filter_compute_s16(&f->config, f->radius, rows, count, to->words);
+    }
+}
+
+/* `count` rows from y on, without their sides. */
+APART static void filter_middles(const direct *d, uint16_t y, unsigned count)
+{
+    const pel_filter *const f = d->filter;
+    const int32_t r = f->radius, above = f->config.border == PEL_BORDER_VALID ? 0 : r;
+    const uint16_t width = (uint16_t)(f->config.width - 2 * r);
+    const ptrdiff_t place = y * d->dst.stride + above;
+    pel_filter_target to = {d->dst.bytes ? d->dst.bytes + place : NULL,
+                            d->dst.words ? d->dst.words + place : NULL, 0};
+    const uint8_t *rows[5];
+
+    for (int32_t k = 0; k <= 2 * r; k++) {
+        rows[k] = row_at(d, y + k - above) + r;
+    }
+    for (;;) {
+        compute(d, rows, width, &to);
+        if (--count == 0) {
+            break;
+        }
+        for (int32_t k = 0; k < 2 * r; k++) {
+            rows[k] = rows[k + 1];
+        }
+        y++;
+        rows[2 * r] = row_at(d, y + 2 * r - above) + r;
+        to.bytes = to.bytes ? to.bytes + d->dst.stride : NULL;
+        to.words = to.words ? to.words + d->dst.stride : NULL;
+    }
+}
+
+/* ---- Sides --------------------------------------------------------------------------------- */
+
+/* Which pixels of a row, or which constant, stand outside. A copy of what the filter knows, as it
+ * cannot be what is written to. */
+typedef struct sides {
+    int32_t left[2], right[2];
+    uint32_t width;
+    uint8_t constant;
+} sides;
+
+static inline void put_record(const sides *s, const uint8_t *row, unsigned r, uint8_t *record)
+{
+    const uint8_t *const last = row + s->width - 2 * r;
+
+    for (unsigned i = 0; i < r; i++) {
+        record[r - 1 - i] = s->left[i] < 0 ? s->constant : row[s->left[i]];
+        record[5 * r + i] = s->right[i] < 0 ? s->constant : row[s->right[i]];
+    }
+    for (unsigned i = 0; i < 2 * r; i++) {
+        record[r + i] = row[i];
+        record[3 * r + i] = last[i];
+    }
+}
+
+static void put_records(const direct *d, uint16_t y, unsigned count)
+{
+    const pel_filter *const f = d->filter;
+    const sides s = {
+        {f->left[0], f->left[1]}, {f->right[0], f->right[1]}, f->config.width, f->config.constant};
+    const int32_t r = f->radius, end = y + (int32_t)count + r;
+    uint8_t *record = d->records;
+
+    for (int32_t row = y - r; row < end; row++) {
+        if (r == 1) { /* known sizes: no loops are left */
+            put_record(&s, row_at(d, row), 1, record);
+            record += 6;
+        } else {
+            put_record(&s, row_at(d, row), 2, record);
+            record += 12;
+        }
+    }
+}
+
+/* The first and the last r results of `count` records to where they belong. */
+#define TAKE(name, pixel)                                                                          \
+    static inline void name(const pixel *from, unsigned r, unsigned count, uint32_t width,         \
+                            ptrdiff_t stride, pixel *to)                                           \
+    {                                                                                              \
+        for (unsigned i = 0; i < count; i++, from += 6 * r, to += stride) {                        \
+            for (unsigned k = 0; k < r; k++) {                                                     \
+                to[k] = from[k];                                                                   \
+                to[width - r + k] = from[3 * r + k];                                               \
+            }                                                                                      \
+        }                                                                                          \
+    }
+
+TAKE(take_bytes, uint8_t)
+TAKE(take_words, int16_t)
+
+static void take_results(const direct *d, uint16_t y, unsigned count, const pel_filter_target *from)
+{
+    const unsigned r = d->filter->radius;
+    const uint32_t width = d->filter->config.width;
+    const ptrdiff_t stride = d->dst.stride;
+
+    if (from->words) {
+        take_words(from->words, r, count, width, stride, d->dst.words + y * stride);
+    } else if (r == 1) {
+        take_bytes(from->bytes, 1, count, width, stride, d->dst.bytes + y * stride);
+    } else {
+        take_bytes(from->bytes, 2, count, width, stride, d->dst.bytes + y * stride);
+    }
+}
+
+/* Both sides of `count` rows from y on. */
+APART static void filter_sides(const direct *d, uint16_t y, unsigned count)
+{
+    const unsigned r = d->filter->radius, record = 6 * r;
+    uint8_t *const results = d->records + (d->rows_max + 2 * r) * record;
+    const pel_filter_target to = {d->dst.bytes ? results : NULL,
+                                  d->dst.words ? (int16_t *)(void *)results : NULL, 0};
+    const uint8_t *rows[5];
+
+    for (unsigned k = 0; k <= 2 * r; k++) {
+        rows[k] = d->records + k * record + r;
+    }
+    put_records(d, y, count);
+    compute(d, rows, (uint16_t)(count * record - 2 * r), &to);
+    take_results(d, y, count, &to);
+}
+
+/* ---- The frame ----------------------------------------------------------------------------- */
+
+/* Lays out the working memory; the records begin where results of 16 bits may lie, and are even in
+ * number of bytes. */
+static void lay_out(direct *d)
+{
+    const pel_filter *const f = d->filter;
+    const unsigned r = f->radius, width = f->config.width;
+    const unsigned kept = f->config.border == PEL_BORDER_CONSTANT ? width : 0;
+    uint8_t *const work = f->config.work;
+    const unsigned room = (2 * r + 1) * (width + 2 * r) - kept - 1 - 12 * r * r;
+
+    for (unsigned i = 0; i < kept; i++) {
+        work[i] = f->config.constant;
+    }
+    d->records = work + kept + ((uintptr_t)(work + kept) & 1);
+    d->rows_max = room / (18 * r) < ROWS_MAX ? room / (18 * r) : ROWS_MAX;
+}
+
+int pel_i_filter_direct(const pel_filter *f, const pel_cview *src, const pel_filter_target *dst)
+{
+    direct d = {f, src, *dst, NULL, 0};
+    const unsigned rows =
+        f->config.border == PEL_BORDER_VALID ? f->config.height - 2u * f->radius : f->config.height;
+    unsigned count;
+
+    if (f->config.backend == PEL_BACKEND_SCALAR || f->config.width < WIDTH_MIN) {
+        return 0;
+    }
+    lay_out(&d);
+    for (unsigned y = 0; y < rows; y += count) {
+        count = rows - y < d.rows_max ? rows - y : d.rows_max;
+        filter_middles(&d, (uint16_t)y, count);
+        if (f->config.border != PEL_BORDER_VALID) {
+            filter_sides(&d, (uint16_t)y, count);
+        }
+    }
+    return 1;
+}
+
+#else
+typedef int nothing_here; /* an empty file is no C */
+#endif
