@@ -23,7 +23,9 @@ INLINE vec load(const uint8_t *bytes)
 INLINE vec load_once(const uint8_t *bytes)
 {
     vec value = load(bytes);
+#if defined(__x86_64__) /* where an operation can have an operand in memory */
     __asm__("" : "+x"(value));
+#endif
     return value;
 }
 
