@@ -22,6 +22,7 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/row/row_filter_narrow.c
     ${PEL_LIB_DIR}/src/row/row_filter_ssse3.c
     ${PEL_LIB_DIR}/src/row/row_filter_avx2.c
+    ${PEL_LIB_DIR}/src/row/row_filter_avx512.c
     ${PEL_LIB_DIR}/src/row/row_filter_neon.c
     ${PEL_LIB_DIR}/src/row/row_point_c.c
     ${PEL_LIB_DIR}/src/row/row_point_ssse3.c

@@ -24,9 +24,9 @@ TARGETS = [firmware.HOST] + [core for core in firmware.CORES if core.name in
 
 # HOST: what only files that are empty on microcontrollers may do.
 #
-# Kernels with taps hold more vectors (25 taps of 32 bytes alone) than there are registers, and a
-# host's stack has megabytes.
-VECTOR_FRAME_LIMIT = 1024
+# Kernels with taps hold more vectors than there are registers (of 5 x 5 taps 20, of up to 64 bytes
+# each), and a host's stack has megabytes.
+VECTOR_FRAME_LIMIT = 1536
 # Root and quotient of whole numbers below 2^22 in single precision are exact after truncation: both
 # instructions are correctly rounded, see row_filter_template.h; equal_filter.c tries all roots.
 EXACT_FLOATS = r"v?(cvtdq2ps|cvttps2dq|sqrtps|divps)"

@@ -12,6 +12,7 @@
 #define BITS(operation) _mm256_##operation##_si256
 #define MOVED(last, here, n)                                                                       \
     _mm256_alignr_epi8(here, _mm256_permute2x128_si256(last, here, 0x21), 16 - (n))
+#define EQUAL(a, b) _mm256_cmpeq_epi8(a, b)
 
 enum { LANES = PEL_ROW_LANES_AVX2 };
 typedef __m256i vec;

@@ -10,6 +10,10 @@
 /* The versions of a kernel in vectors; rows narrower than one are for the next smaller one. */
 #if defined(PEL_ROW_FILTER_X86) && !PEL_ROW_DSP
 #define PEL_ROW_TRY(name, arguments)                                                               \
+    if (backend >= PEL_BACKEND_AVX512 && count >= PEL_ROW_LANES_AVX512) {                          \
+        pel_row_##name##_avx512 arguments;                                                         \
+        return;                                                                                    \
+    }                                                                                              \
     if (backend >= PEL_BACKEND_AVX2 && count >= PEL_ROW_LANES_AVX2) {                              \
         pel_row_##name##_avx2 arguments;                                                           \
         return;                                                                                    \

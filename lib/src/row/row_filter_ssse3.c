@@ -11,6 +11,7 @@
 #define V(operation) _mm_##operation
 #define BITS(operation) _mm_##operation##_si128
 #define MOVED(last, here, n) _mm_alignr_epi8(here, last, 16 - (n))
+#define EQUAL(a, b) _mm_cmpeq_epi8(a, b)
 
 enum { LANES = PEL_ROW_LANES_SSSE3 };
 typedef __m128i vec;

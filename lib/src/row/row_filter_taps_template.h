@@ -14,7 +14,7 @@
  * the registers. */
 INLINE parities ready(parities sums)
 {
-    __asm__("" : "+x"(sums.even), "+x"(sums.odd));
+    __asm__("" : "+v"(sums.even), "+v"(sums.odd));
     return sums;
 }
 

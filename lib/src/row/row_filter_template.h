@@ -5,6 +5,7 @@
  *     V(op), BITS(op)          the intrinsic functions of its width
  *     everywhere(bytes)        16 bytes in every 16 of a vector
  *     MOVED(last, here, n)     what lies n bytes before `here` if `last` lies before it
+ *     EQUAL(a, b)              bytes that are equal become 255, others 0
  *     words, store_words       results of 16 bits, as unpacking bytes leaves them
  *     ISA, INLINE, KERNEL      for what a function is compiled, what it is called
  *     OWN_PRODUCTS             defined: the file brings what is made of products, because its
@@ -24,7 +25,7 @@ INLINE vec load_once(const uint8_t *bytes)
 {
     vec value = load(bytes);
 #if defined(__x86_64__) /* where an operation can have an operand in memory */
-    __asm__("" : "+x"(value));
+    __asm__("" : "+v"(value));
 #endif
     return value;
 }
@@ -506,7 +507,7 @@ ISA void KERNEL(erode_labels3)(const uint8_t *const rows[], uint16_t count, uint
             const extremes here = extremes_of(load(a + x + 1), load(b + x + 1), load(c + x + 1));
             const vec low = smallest_of(last.low, here.low);
             const vec high = largest_of(last.high, here.high);
-            store(out + x, BITS(and)(low, V(cmpeq_epi8)(low, high)));
+            store(out + x, BITS(and)(low, EQUAL(low, high)));
             last = here;
         }
     }
@@ -522,7 +523,7 @@ INLINE vec label_columns(vec a, vec b, vec c)
 INLINE vec dilated(vec own, vec found)
 {
     const vec label = V(add_epi8)(found, V(set1_epi8)(1));
-    const vec none = V(cmpeq_epi8)(own, BITS(setzero)());
+    const vec none = EQUAL(own, BITS(setzero)());
     return BITS(or)(own, BITS(and)(label, none));
 }
 

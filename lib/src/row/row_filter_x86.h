@@ -11,10 +11,11 @@
 #if defined(__GNUC__) && defined(__x86_64__)
 #define PEL_ROW_FILTER_X86 1
 
-enum { PEL_ROW_LANES_SSSE3 = 16, PEL_ROW_LANES_AVX2 = 32 };
+enum { PEL_ROW_LANES_SSSE3 = 16, PEL_ROW_LANES_AVX2 = 32, PEL_ROW_LANES_AVX512 = 64 };
 
 PEL_ROW_FILTERS(ssse3);
 PEL_ROW_FILTERS(avx2);
+PEL_ROW_FILTERS(avx512);
 #endif
 
 #endif
