@@ -363,6 +363,14 @@ static int read_text(input *in, classes *list)
     return 0;
 }
 
+void classes_choose_backend(classes *list, pel_backend backend)
+{
+    if (list->classifier.boxes &&
+        pel_classify_plan_make(&list->plan, &list->boxes, backend) >= PEL_OK) {
+        list->classifier.plan = &list->plan;
+    }
+}
+
 static int read_any(input *in, classes *list)
 {
     uint8_t start[4];

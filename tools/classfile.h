@@ -41,6 +41,7 @@ typedef struct classes {
     pel_boxes boxes;
     uint8_t *cells;
     pel_classifier classifier;
+    pel_classify_plan plan;
 } classes;
 
 /* Reads a class file or a .tm table (told by its first bytes; labels 1..n become classes named
@@ -50,6 +51,9 @@ int classes_read(const char *path, classes *list);
 
 /* The same for a stream that is open already, which is closed; `name` is for messages. */
 int classes_read_stream(FILE *stream, const char *name, classes *list);
+
+/* From here on the classifier works with this backend. A table has none but plain C. */
+void classes_choose_backend(classes *list, pel_backend backend);
 
 /* Writes the text format. 0, or -1 after a message. */
 int classes_write(const char *path, const classes *list);

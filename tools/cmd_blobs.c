@@ -32,7 +32,8 @@ static const char help[] =
     "\n"
     "  -c, --classes CLASSES    class file, CMVision's text format, or a .tm table\n"
     "      --raw FORMAT WxH     INPUT holds raw frames: YUYV 320x240, for example\n"
-    "      --range RANGE        of raw YCbCr frames: full (default) or limited\n"
+    "      --range RANGE        of raw YCbCr frames: full (default) or "
+    "limited\n" OPTIONS_BACKEND_HELP
     "      --connectivity 4|8   whether diagonal neighbours touch: 8 (default) they do\n"
     "\n"
     "Which blobs\n"
@@ -91,6 +92,7 @@ struct job {
     const char *classes_path;
     classes list;
     source_options input;
+    pel_backend backend;
     camera_options camera;
     const char *wanted[NAMES_MAX]; /* --class */
     unsigned wanted_count;
@@ -187,6 +189,8 @@ static int read_option(int option, int argc, char **argv, struct job *job)
         return taken < 0 || live < 0 ? -1 : 0;
     }
     switch (option) {
+    case OPTION_BACKEND:
+        return options_backend(optarg, &job->backend);
     case 'k':
         return read_connectivity(job);
     case 'a':
@@ -229,6 +233,7 @@ static int check(int argc, const struct job *job)
 
 static const struct option long_options[] = {{"classes", required_argument, NULL, 'c'},
                                              OPTIONS_INPUT,
+                                             OPTIONS_BACKEND,
                                              CAMERA_OPTIONS,
                                              {"connectivity", required_argument, NULL, 'k'},
                                              {"min-area", required_argument, NULL, 'a'},
@@ -544,6 +549,7 @@ static int run(int argc, char **argv)
     if (classes_read(job.classes_path, &job.list)) {
         return EXIT_BAD_INPUT;
     }
+    classes_choose_backend(&job.list, job.backend);
     int failed = choose_classes(&job) || check_merging(&job);
     if (!failed) {
         if (!job.output || strcmp(job.output, "-") != 0) {

@@ -25,8 +25,8 @@ static const char help[] =
     "\n"
     "  -c, --classes CLASSES    class file, CMVision's text format, or a .tm table\n"
     "      --raw FORMAT WxH     INPUT holds raw frames: YUYV 320x240, for example\n"
-    "      --range RANGE        of raw YCbCr frames: full (default) or limited\n"
-    "\n"
+    "      --range RANGE        of raw YCbCr frames: full (default) or "
+    "limited\n" OPTIONS_BACKEND_HELP "\n"
     "Examples\n"
     "  pel classify -c robot.classes robot.ppm seen.png\n"
     "  pel classify -c robot.classes --raw YUYV 320x240 --range limited frame.yuv seen.png\n";
@@ -36,6 +36,7 @@ struct job {
     const char *output;
     classes list;
     source_options input;
+    pel_backend backend;
     uint8_t *labels, *rgb;
 };
 
@@ -43,6 +44,7 @@ static int parse(int argc, char **argv, struct job *job)
 {
     static const struct option long_options[] = {{"classes", required_argument, NULL, 'c'},
                                                  OPTIONS_INPUT,
+                                                 OPTIONS_BACKEND,
                                                  {"help", no_argument, NULL, 'h'},
                                                  {NULL, 0, NULL, 0}};
     int option, taken;
@@ -54,6 +56,11 @@ static int parse(int argc, char **argv, struct job *job)
             return EXIT_SUCCESS;
         case 'c':
             job->classes_path = optarg;
+            break;
+        case OPTION_BACKEND:
+            if (options_backend(optarg, &job->backend)) {
+                return usage_hint("classify");
+            }
             break;
         default:
             taken = options_input(option, argc, argv, &job->input);
@@ -137,6 +144,7 @@ static int run(int argc, char **argv)
     if (classes_read(job.classes_path, &job.list)) {
         return EXIT_BAD_INPUT;
     }
+    classes_choose_backend(&job.list, job.backend);
     const int failed = walk_frames(argv + optind, 1, &job.input, visit, &job);
     classes_free(&job.list);
     return failed ? EXIT_BAD_INPUT : EXIT_SUCCESS;

@@ -49,7 +49,7 @@ static const char help[] =
     "                             valid        nothing: the result is smaller\n"
     "      --repeat N           filter N times, 1..100; open and close do both of their steps N "
     "times,\n"
-    "                           one after the other\n" TURN_HELP "\n"
+    "                           one after the other\n" OPTIONS_BACKEND_HELP TURN_HELP "\n"
     "Examples\n"
     "  pel filter gauss3 robot.ppm smooth.ppm\n"
     "  pel filter gradient --gray robot.ppm edges.png\n"
@@ -249,6 +249,7 @@ static const struct option long_options[] = {{"kernel", required_argument, NULL,
                                              {"convolve", no_argument, NULL, 'c'},
                                              {"repeat", required_argument, NULL, 'n'},
                                              {"wide", no_argument, NULL, 'w'},
+                                             OPTIONS_BACKEND,
                                              TURN_OPTIONS};
 
 /* Takes an option of its own: 0, -1 after a message, or 1 if it is none. */
@@ -268,6 +269,8 @@ static int take_option(int option, struct job *job)
         return whole_number("filter", "--bias", optarg, -32768, 32767, &job->bias);
     case 'n':
         return options_number("--repeat", optarg, 1, 100, &job->repeat);
+    case OPTION_BACKEND:
+        return options_backend(optarg, &job->config.backend);
     case 'a':
         job->absolute = 1;
         return 0;

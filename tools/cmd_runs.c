@@ -19,8 +19,8 @@ static const char help[] =
     "  -c, --classes CLASSES    class file, CMVision's text format, or a .tm table\n"
     "      --csv                columns frame,y,x0,x1,class,name\n"
     "      --raw FORMAT WxH     INPUT holds raw frames: YUYV 320x240, for example\n"
-    "      --range RANGE        of raw YCbCr frames: full (default) or limited\n"
-    "\n"
+    "      --range RANGE        of raw YCbCr frames: full (default) or "
+    "limited\n" OPTIONS_BACKEND_HELP "\n"
     "Examples\n"
     "  pel runs -c robot.classes robot.ppm\n"
     "  pel runs -c robot.classes --csv - < robot.ppm\n";
@@ -30,6 +30,7 @@ struct job {
     int csv;
     classes list;
     source_options input;
+    pel_backend backend;
 };
 
 static int parse(int argc, char **argv, struct job *job)
@@ -37,6 +38,7 @@ static int parse(int argc, char **argv, struct job *job)
     static const struct option long_options[] = {{"classes", required_argument, NULL, 'c'},
                                                  {"csv", no_argument, NULL, 'v'},
                                                  OPTIONS_INPUT,
+                                                 OPTIONS_BACKEND,
                                                  {"help", no_argument, NULL, 'h'},
                                                  {NULL, 0, NULL, 0}};
     int option, taken;
@@ -48,6 +50,11 @@ static int parse(int argc, char **argv, struct job *job)
             return EXIT_SUCCESS;
         case 'c':
             job->classes_path = optarg;
+            break;
+        case OPTION_BACKEND:
+            if (options_backend(optarg, &job->backend)) {
+                return usage_hint("runs");
+            }
             break;
         case 'v':
             job->csv = 1;
@@ -122,6 +129,7 @@ static int run(int argc, char **argv)
     if (classes_read(job.classes_path, &job.list)) {
         return EXIT_BAD_INPUT;
     }
+    classes_choose_backend(&job.list, job.backend);
     puts(job.csv ? "frame,y,x0,x1,class,name" : "frame     y    x0    x1  class");
     const int failed = walk_frames(argv + optind, argc - optind, &job.input, visit, &job);
     classes_free(&job.list);

@@ -56,6 +56,24 @@ int options_number(const char *name, const char *word, unsigned long min, unsign
     return 0;
 }
 
+int options_backend(const char *word, pel_backend *backend)
+{
+    char list[128] = "";
+    for (unsigned b = PEL_BACKEND_AUTO; b < PEL_BACKEND_COUNT; b++) {
+        const char *const name = pel_backend_name((pel_backend)b);
+        if (!pel_backend_available((pel_backend)b)) {
+            continue;
+        }
+        if (strcmp(word, name) == 0) {
+            *backend = (pel_backend)b;
+            return 0;
+        }
+        const size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, " %s", name);
+    }
+    return say_error(NULL, "no backend '%s' here; there are:%s", word, list);
+}
+
 static int unknown_format(const char *word)
 {
     char list[512];

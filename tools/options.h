@@ -11,11 +11,13 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
+#include <pel.h>
+
 #include "source.h"
 
 /* How inputs are read, for the list that getopt_long is given (<getopt.h>):
  * --raw FORMAT WIDTHxHEIGHT and --range RANGE. */
-enum { OPTION_RAW = 'R', OPTION_RANGE = 'G' };
+enum { OPTION_RAW = 'R', OPTION_RANGE = 'G', OPTION_BACKEND = 256 };
 #define OPTIONS_INPUT                                                                              \
     {"raw", required_argument, NULL, OPTION_RAW},                                                  \
     {                                                                                              \
@@ -25,6 +27,19 @@ enum { OPTION_RAW = 'R', OPTION_RANGE = 'G' };
 /* Takes what getopt_long has just returned if it is one of OPTIONS_INPUT; --raw has a second word
  * and moves optind past it. 1 taken, 0 another option, -1 after a message. */
 int options_input(int option, int argc, char **argv, source_options *input);
+
+/* --backend NAME, for the same list, and as a part of the manual. */
+#define OPTIONS_BACKEND                                                                            \
+    {                                                                                              \
+        "backend", required_argument, NULL, OPTION_BACKEND                                         \
+    }
+#define OPTIONS_BACKEND_HELP                                                                       \
+    "      --backend NAME       processor instructions: scalar, ssse3, avx2, ...; default: the "   \
+    "best\n"                                                                                       \
+    "                           here. Results do not depend on it\n"
+
+/* A backend that this machine has, by its name, or "auto". */
+int options_backend(const char *word, pel_backend *backend);
 
 /* A pixel format by its name, upper or lower case: "yuyv", "RGB565_BE". */
 int options_format(const char *word, pel_format *format);
