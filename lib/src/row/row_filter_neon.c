@@ -9,6 +9,7 @@
 #define V(operation) neon_##operation
 #define BITS(operation) neon_##operation
 #define MOVED(last, here, n) vextq_u8(last, here, 16 - (n))
+#define EQUAL(a, b) neon_cmpeq_epi8(a, b)
 
 /* Products of bytes with a sign and bytes without one do not exist; those of 16 bits that add
  * themselves to a sum, and by one place of a vector, do. */

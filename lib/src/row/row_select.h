@@ -37,10 +37,10 @@ static inline void pel_i_row_classify_pairs(pel_backend backend, const uint8_t *
     uint16_t done = 0; /* even */
 
 #if defined(PEL_ROW_X86)
-    if (backend >= PEL_BACKEND_AVX512 && count >= PEL_ROW_BLOCK_AVX512 / 2) {
+    if (backend >= PEL_BACKEND_AVX512 && count >= PEL_ROW_VECTOR_AVX512) {
         done = pel_row_classify_nibbles_avx512(nibbles, src, count, labels);
     }
-    if (backend >= PEL_BACKEND_AVX2 && count >= PEL_ROW_BLOCK_AVX2 / 2 && done == 0) {
+    if (backend >= PEL_BACKEND_AVX2 && count >= PEL_ROW_VECTOR_AVX2 && done == 0) {
         done = pel_row_classify_nibbles_avx2(nibbles, src, count, labels);
     }
     if (backend >= PEL_BACKEND_SSSE3 && done == 0) {
