@@ -35,6 +35,13 @@ INLINE words rises(vec p, vec q, int n)
     return products;
 }
 
+/* Two neighbouring columns each, weighed 1 2 1, times 16. */
+INLINE vec gauss_pairs(vec a, vec b, vec c)
+{
+    const uint16x8_t outer = vpadalq_u8(vpaddlq_u8(a), c);
+    return of_u16(vshlq_n_u16(vaddq_u16(outer, vshlq_n_u16(vpaddlq_u8(b), 1)), 4));
+}
+
 #include "row/row_filter_template.h"
 
 /* ---- Sums of 16 bits ----------------------------------------------------------------------- */

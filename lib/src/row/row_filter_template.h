@@ -134,12 +134,14 @@ INLINE columns3 columns3_of(parities sums)
  * begins at its right neighbour, which is the left one of the next even place. The largest is
  * 65280: 16 bits without a sign, the result in the upper 8.
  */
+#if !defined(OWN_PRODUCTS)
 INLINE vec gauss_pairs(vec a, vec b, vec c)
 {
     const vec outer = V(set1_epi8)(16), inner = V(set1_epi8)(32);
     return V(add_epi16)(V(add_epi16)(V(maddubs_epi16)(a, outer), V(maddubs_epi16)(b, inner)),
                         V(maddubs_epi16)(c, outer));
 }
+#endif
 
 ISA void KERNEL(gauss3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
