@@ -5,8 +5,8 @@
  * module that calls it has checked. Counts may be 0. Nothing is read or written outside the stated
  * elements; no alignment is asked for. Source and destination do not overlap unless it says so.
  *
- * row_c.c and row_runs_c.c define them in plain C: that is the truth. A faster version equals it
- * bit for bit.
+ * row_c.c, row_classify_c.c and row_runs_c.c define them in plain C: that is the truth. A faster
+ * version equals it bit for bit.
  */
 #ifndef PEL_ROW_H
 #define PEL_ROW_H

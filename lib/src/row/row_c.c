@@ -1,5 +1,5 @@
 /* Row kernels in plain C, the truth that every faster version must equal: reading pixels, colours,
- * tables. See row_runs_c.c for what leads to runs. */
+ * tables. From pixels to labels and runs: row_classify_c.c, row_runs_c.c. */
 #include "row/row.h"
 
 #include "pel/fixed.h"

@@ -1,9 +1,9 @@
 /*
- * Row kernels in plain C, the truth that every faster version must equal: from pixels to labels and
- * runs. Compiled for size, each is the shortest loop that does it; otherwise pixels are taken by
- * twos and labels by words.
+ * Row kernels in plain C, the truth that every faster version must equal: from labels to runs, and
+ * from pixels to runs. Compiled for size, both are short loops over pixels; otherwise labels are
+ * taken by words and pixels by pairs.
  */
-#include "row/row.h"
+#include "row/row_label.h"
 
 #if defined(__GNUC__)
 #define INLINE __attribute__((always_inline)) static inline
@@ -12,164 +12,6 @@
 #define INLINE static inline
 #define APART static
 #endif
-
-/* ---- Labels -------------------------------------------------------------------------------- */
-
-/* Where the lowest set bit is found by an instruction or two. */
-#if defined(__GNUC__) && (defined(__x86_64__) || defined(__i386__) || defined(__aarch64__) ||      \
-                          (defined(__ARM_FEATURE_CLZ) && __ARM_ARCH >= 7))
-#define PEL_HAS_CTZ 1
-#else
-#define PEL_HAS_CTZ 0
-#endif
-
-#if PEL_HAS_CTZ
-static inline unsigned lowest_bit(size_t bits)
-{
-    return (unsigned)(sizeof bits == 8 ? __builtin_ctzll(bits) : __builtin_ctz((unsigned)bits));
-}
-#endif
-
-#if PEL_HAS_CTZ && defined(__OPTIMIZE_SIZE__)
-static inline uint8_t label_of(pel_class_mask mask)
-{
-    return (uint8_t)(mask != 0 ? lowest_bit(mask) + 1 : 0);
-}
-#elif defined(__OPTIMIZE_SIZE__)
-static inline uint8_t label_of(pel_class_mask mask)
-{
-    uint8_t label = 1;
-
-    if (mask == 0) {
-        return 0;
-    }
-    for (pel_class_mask bits = mask; (bits & 1) == 0; bits = (pel_class_mask)(bits >> 1)) {
-        label++;
-    }
-    return label;
-}
-#else
-/* The label of each 8-bit mask: 1 + the place of its lowest bit. Looking it up is faster than
- * finding the bit where every pixel's is wanted, but takes 256 bytes. */
-#define L1(high) high, 1, 2, 1, 3, 1, 2, 1, 4, 1, 2, 1, 3, 1, 2, 1
-static const uint8_t label_of_mask[256] = {L1(0), L1(5), L1(6), L1(5), L1(7), L1(5), L1(6), L1(5),
-                                           L1(8), L1(5), L1(6), L1(5), L1(7), L1(5), L1(6), L1(5)};
-#undef L1
-
-static inline uint8_t label_of(pel_class_mask mask)
-{
-#if PEL_CLASS_MAX == 8
-    return label_of_mask[mask];
-#else
-    uint8_t below = 0;
-    uint32_t bits = mask;
-
-    while (bits != 0 && (bits & 255) == 0) {
-        bits >>= 8;
-        below = (uint8_t)(below + 8);
-    }
-    return bits == 0 ? 0 : (uint8_t)(below + label_of_mask[bits & 255]);
-#endif
-}
-
-/* The same of a mask that is not 0. */
-static inline uint8_t label_of_some(pel_class_mask mask)
-{
-#if PEL_HAS_CTZ
-    return (uint8_t)(lowest_bit(mask) + 1);
-#else
-    return label_of(mask);
-#endif
-}
-#endif
-
-uint8_t pel_row_label(pel_class_mask mask)
-{
-    return label_of(mask);
-}
-
-/* ---- Classification ------------------------------------------------------------------------ */
-
-#if defined(__OPTIMIZE_SIZE__)
-void pel_row_classify_pairs(const pel_row_boxes *boxes, const pel_row_pairs *src, uint16_t count,
-                            uint8_t *labels)
-{
-    const pel_class_mask *const of_y = boxes->y, *const of_u = boxes->u, *const of_v = boxes->v;
-    const uint8_t *y = src->y, *u = src->u, *v = src->v;
-    const size_t y_step = src->y_step, c_step = src->c_step;
-    pel_class_mask chroma = 0;
-
-    for (uint16_t x = 0; x < count; x++) {
-        if (x % 2 == 0) {
-            chroma = of_u[*u] & of_v[*v];
-            u += c_step;
-            v += c_step;
-        }
-        labels[x] = label_of(chroma & of_y[*y]);
-        y += y_step;
-    }
-}
-#else
-/* Two pairs at a time: most pixels are background, and most of those are told by their chroma
- * alone; then four of them are done after four look-ups. Called with constant steps, so that each
- * layout gets its own loop. */
-static inline void classify_pairs(const pel_row_boxes *boxes, const pel_row_pairs *src,
-                                  uint16_t count, uint8_t *labels, size_t y_step, size_t c_step)
-{
-    const pel_class_mask *const of_y = boxes->y, *const of_u = boxes->u, *const of_v = boxes->v;
-    const uint8_t *const y = src->y, *const u = src->u, *const v = src->v;
-    const size_t pairs = count / 2;
-    size_t i = 0;
-
-    for (; i + 2 <= pairs; i += 2) {
-        const pel_class_mask left = of_u[u[i * c_step]] & of_v[v[i * c_step]];
-        const pel_class_mask right = of_u[u[(i + 1) * c_step]] & of_v[v[(i + 1) * c_step]];
-        if ((left | right) == 0) {
-            labels[2 * i] = 0;
-            labels[2 * i + 1] = 0;
-            labels[2 * i + 2] = 0;
-            labels[2 * i + 3] = 0;
-        } else {
-            labels[2 * i + 3] = label_of(right & of_y[y[(2 * i + 3) * y_step]]);
-            labels[2 * i + 2] = label_of(right & of_y[y[(2 * i + 2) * y_step]]);
-            labels[2 * i + 1] = label_of(left & of_y[y[(2 * i + 1) * y_step]]);
-            labels[2 * i] = label_of(left & of_y[y[2 * i * y_step]]);
-        }
-    }
-    for (i *= 2; i < count; i++) {
-        const size_t c = i / 2 * c_step;
-        labels[i] = label_of(of_u[u[c]] & of_v[v[c]] & of_y[y[i * y_step]]);
-    }
-}
-
-void pel_row_classify_pairs(const pel_row_boxes *boxes, const pel_row_pairs *src, uint16_t count,
-                            uint8_t *labels)
-{
-    if (src->y_step == 2) {
-        classify_pairs(boxes, src, count, labels, 2, 4);
-    } else {
-        classify_pairs(boxes, src, count, labels, 1, src->c_step);
-    }
-}
-#endif
-
-void pel_row_classify(const pel_row_boxes *boxes, const uint8_t *y, const uint8_t *u,
-                      const uint8_t *v, uint16_t count, uint8_t *labels)
-{
-    for (uint16_t i = 0; i < count; i++) {
-        labels[i] = label_of(boxes->u[u[i]] & boxes->v[v[i]] & boxes->y[y[i]]);
-    }
-}
-
-void pel_row_classify_lut(const pel_row_lut *lut, const uint8_t *y, const uint8_t *u,
-                          const uint8_t *v, uint16_t count, uint8_t *labels)
-{
-    for (uint16_t i = 0; i < count; i++) {
-        labels[i] = lut->cell[(uint32_t)(y[i] >> lut->y_drop) << lut->y_shift |
-                              (uint32_t)(u[i] >> lut->u_drop) << lut->u_shift |
-                              (uint32_t)(v[i] >> lut->v_drop)];
-    }
-}
 
 #if defined(__OPTIMIZE_SIZE__)
 /* ---- Runs ---------------------------------------------------------------------------------- */
@@ -198,7 +40,7 @@ uint16_t pel_row_find_runs(const uint8_t *labels, uint16_t count, uint16_t *edge
 APART uint16_t *change(pel_class_mask before, pel_class_mask mask, uint16_t x, uint8_t *labels,
                        uint16_t *edge)
 {
-    const uint8_t label = label_of(mask);
+    const uint8_t label = mask != 0 ? pel_i_label(mask) : 0;
 
     if (before != 0) {
         if (label == labels[edge[-1]]) {
@@ -310,14 +152,14 @@ static inline run_writer scan_word(run_writer writer, const uint8_t *labels, uns
 
     if ((changes & both) == 0) { /* every change is a begin or an end: no label meets another */
         do {
-            *writer.edge++ = (uint16_t)(x + lowest_bit(changes) / 8);
+            *writer.edge++ = (uint16_t)(x + pel_i_lowest_bit(changes) / 8);
             changes &= changes - 1;
         } while (changes != 0);
         writer.label = here >> (8 * (WORD_BYTES - 1));
         return writer;
     }
     do {
-        const unsigned place = x + lowest_bit(changes) / 8;
+        const unsigned place = x + pel_i_lowest_bit(changes) / 8;
         writer = change_label(writer, labels[place], place);
         changes &= changes - 1;
     } while (changes != 0);
@@ -437,7 +279,7 @@ INLINE const uint8_t *skip_background(const pair_row *row, unsigned layout, cons
  * and another begins at x. */
 APART uint16_t *meet(pel_class_mask mask, size_t x, uint8_t *labels, uint16_t *edge)
 {
-    const uint8_t label = label_of_some(mask);
+    const uint8_t label = pel_i_label(mask);
 
     if (label != labels[edge[-1]]) {
         edge[0] = (uint16_t)x;
@@ -451,7 +293,7 @@ APART uint16_t *meet(pel_class_mask mask, size_t x, uint8_t *labels, uint16_t *e
 INLINE uint16_t *begin(pel_class_mask mask, size_t x, uint8_t *labels, uint16_t *edge)
 {
     *edge = (uint16_t)x;
-    labels[x] = label_of_some(mask);
+    labels[x] = pel_i_label(mask);
     return edge + 1;
 }
 
