@@ -39,12 +39,27 @@ static void sift_down(pel_blob *heap, uint32_t count, uint32_t hole, const pel_b
     heap[hole] = *blob;
 }
 
+/* Makes a heap of the blobs, then takes the first of it to the end of the list until `left` are in
+ * the heap. */
+static void heap_sort(pel_blob *blobs, uint32_t count, uint32_t left)
+{
+    uint32_t unordered = count / 2;
+
+    while (unordered > 0 || count > left) {
+        pel_blob blob;
+        if (unordered > 0) {
+            blob = blobs[--unordered];
+        } else {
+            blob = blobs[--count];
+            blobs[count] = blobs[0];
+        }
+        sift_down(blobs, count, unordered, &blob);
+    }
+}
+
 void pel_i_heap_make(pel_blob *heap, uint32_t count)
 {
-    for (uint32_t i = count / 2; i > 0; i--) {
-        const pel_blob blob = heap[i - 1];
-        sift_down(heap, count, i - 1, &blob);
-    }
+    heap_sort(heap, count, count);
 }
 
 void pel_i_heap_replace(pel_blob *heap, uint32_t count, const pel_blob *blob)
@@ -54,14 +69,8 @@ void pel_i_heap_replace(pel_blob *heap, uint32_t count, const pel_blob *blob)
 
 void pel_blobs_sort(pel_blob *blobs, uint32_t count)
 {
-    if (!blobs) {
-        return;
-    }
-    pel_i_heap_make(blobs, count);
-    for (uint32_t last = count; last-- > 1;) {
-        const pel_blob blob = blobs[last];
-        blobs[last] = blobs[0];
-        sift_down(blobs, last, 0, &blob);
+    if (blobs) {
+        heap_sort(blobs, count, 1);
     }
 }
 

@@ -132,7 +132,7 @@ static inline void add_run(pel_blobs *b, unsigned id, pel_run run, const uint16_
 
 /* ---- Blobs that end ------------------------------------------------------------------------ */
 
-static void describe(const pel_blobs *b, unsigned id, pel_blob *blob)
+PEL_I_APART static void describe(const pel_blobs *b, unsigned id, pel_blob *blob)
 {
     const pel_blob zero = {0};
     const slot *const s = &b->slots[id];

@@ -96,15 +96,14 @@ pel_status pel_blobs_begin(pel_blobs *b, const pel_blobs_config *config)
     return PEL_OK;
 }
 
-/* Adds the next row, which was checked. RGB is read in the range of the classes. */
-static inline pel_status add_row(pel_blobs *b, const pel_classifier *classifier, pel_crow *row,
-                                 uint8_t *labels)
+/* The runs of the next row, which was checked. RGB is read in the range of the classes, also
+ * later. */
+static uint16_t find_runs(const pel_blobs *b, const pel_classifier *classifier, pel_crow *row,
+                          uint8_t *labels)
 {
     row->range = classifier->range;
-    return pel_i_blobs_join(b,
-                            pel_i_classify_runs(classifier, row, b->config.width, b->config.backend,
-                                                labels, pel_i_blobs_edges(b)),
-                            labels, row);
+    return pel_i_classify_runs(classifier, row, b->config.width, b->config.backend, labels,
+                               pel_i_blobs_edges(b));
 }
 
 pel_status pel_blobs_pixels(pel_blobs *b, uint16_t y, const pel_classifier *classifier,
@@ -123,14 +122,16 @@ pel_status pel_blobs_pixels(pel_blobs *b, uint16_t y, const pel_classifier *clas
         return PEL_ERR_FORMAT;
     }
     row = *pixels;
-    return add_row(b, classifier, &row, labels);
+    return pel_i_blobs_join(b, find_runs(b, classifier, &row, labels), labels, &row);
 }
 
-pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
-                           const pel_classifier *classifier, const pel_cview *view, uint8_t *labels,
-                           uint32_t *count)
+/* What pel_blobs_frame refuses beyond what begin does. Apart, so that its stack is not there while
+ * the rows are added. */
+PEL_I_APART static pel_status check_frame(const pel_blobs *b, const pel_blobs_config *config,
+                                          const pel_classifier *classifier, const pel_cview *view,
+                                          uint8_t *labels)
 {
-    pel_status status = b && config && labels && count ? pel_cview_check(view) : PEL_ERR_ARG;
+    pel_status status = b && config && labels ? pel_cview_check(view) : PEL_ERR_ARG;
     pel_crow row;
 
     if (status != PEL_OK) {
@@ -148,14 +149,24 @@ pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
     if (status != PEL_OK) {
         return status;
     }
-    if (pel_i_view_overlaps(view, labels, config->width) ||
-        pel_i_blobs_write(b, config, labels, config->width)) {
-        return PEL_ERR_ARG;
+    return pel_i_view_overlaps(view, labels, config->width) ||
+                   pel_i_blobs_write(b, config, labels, config->width)
+               ? PEL_ERR_ARG
+               : PEL_OK;
+}
+
+pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
+                           const pel_classifier *classifier, const pel_cview *view, uint8_t *labels,
+                           uint32_t *count)
+{
+    pel_status status = count ? check_frame(b, config, classifier, view, labels) : PEL_ERR_ARG;
+
+    if (status == PEL_OK) {
+        status = pel_blobs_begin(b, config);
     }
-    status = pel_blobs_begin(b, config);
-    for (uint16_t y = 0; y < config->height && status >= 0; y++) {
-        row = pel_cview_row(view, y);
-        status = add_row(b, classifier, &row, labels);
+    for (uint16_t y = 0; status >= 0 && y < config->height; y++) {
+        pel_crow row = pel_cview_row(view, y);
+        status = pel_i_blobs_join(b, find_runs(b, classifier, &row, labels), labels, &row);
     }
     return status < 0 ? status : pel_blobs_end(b, count);
 }

@@ -54,9 +54,7 @@ LIMITS = (
     Limit("linked", "cortex-m4", "classify and blobs", 6144),  # the aim is 4096
     Limit("linked", "cortex-m4", "generic 3x3, all borders", 2048),
     Limit("linked", "cortex-m4", "whole library", 49152),
-    Limit("stack", ".*", "(?!pel_(blobs|classify)_frame).*", 512),
-    Limit("stack", ".*", "pel_classify_frame", 528),  # the aim is 512
-    Limit("stack", ".*", "pel_blobs_frame", 608),  # the aim is 512
+    Limit("stack", ".*", ".*", 512),
     Limit("ram", ".*", "robot, 320x240.*", 8192),
 )
 SMALL_STACK = 128  # most public functions take less
