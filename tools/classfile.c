@@ -359,6 +359,7 @@ static int read_text(input *in, classes *list)
     }
     list->classifier.boxes = &list->boxes;
     list->classifier.reader = pel_crow_read_yuv;
+    list->classifier.pieces = pel_classify_pieces;
     list->classifier.range = list->range;
     return 0;
 }

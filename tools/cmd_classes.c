@@ -115,7 +115,8 @@ static void write_cells(FILE *file, const char *name, const classes *list)
     fprintf(file,
             "/* A table of labels, colour range %s. To classify with it:\n"
             " *     pel_classifier classifier = {.lut = {%s, %u, %u, %u},\n"
-            " *                                  .reader = pel_crow_read_yuv}; */\n"
+            " *                                  .reader = pel_crow_read_yuv,\n"
+            " *                                  .pieces = pel_classify_pieces}; */\n"
             "#include <stdint.h>\n\nconst uint8_t %s[%zu] = {",
             list->range == PEL_RANGE_LIMITED ? "limited" : "full", name, (unsigned)lut->y_bits,
             (unsigned)lut->u_bits, (unsigned)lut->v_bits, name, count);

@@ -46,6 +46,7 @@ void scene_classes(classes *list)
     }
     list->classifier.boxes = &list->boxes;
     list->classifier.reader = pel_crow_read_yuv;
+    list->classifier.pieces = pel_classify_pieces;
     list->classifier.range = PEL_RANGE_FULL;
 }
 

@@ -144,6 +144,7 @@ int tmfile_read(input *in, classes *list)
     lut.cell = list->cells;
     list->classifier.lut = lut;
     list->classifier.reader = pel_crow_read_yuv;
+    list->classifier.pieces = pel_classify_pieces;
     for (i = 0; i < list->count; i++) {
         name_class(&list->entry[i], i);
     }

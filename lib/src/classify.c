@@ -83,8 +83,8 @@ static void classify_yuv(const pel_classifier *classifier, const uint8_t *y, con
 enum { CHUNK = 8 }; /* pixels read at a time: 24 bytes of stack here, 24 in the reader */
 
 /* Whatever the reader reads. */
-static void classify_in_chunks(const pel_classifier *classifier, const pel_crow *row,
-                               uint16_t width, uint8_t *labels)
+void pel_classify_pieces(const pel_classifier *classifier, const pel_crow *row, uint16_t width,
+                         uint8_t *labels)
 {
     for (uint16_t x = 0; x < width; x = (uint16_t)(x + CHUNK)) {
         uint8_t y[CHUNK], u[CHUNK], v[CHUNK];
@@ -117,7 +117,7 @@ pel_status pel_i_classify_check(const pel_classifier *classifier, const pel_crow
     if (works_in_place(classifier, row)) {
         return row->range == classifier->range ? PEL_OK : PEL_ERR_FORMAT;
     }
-    return classifier->reader
+    return classifier->reader && classifier->pieces
                ? classifier->reader(row, 0, 0, classifier->range, labels, labels, labels)
                : PEL_ERR_FORMAT;
 }
@@ -139,7 +139,7 @@ static void classify(const pel_classifier *classifier, const pel_crow *row, uint
     if (works_in_place(classifier, row)) {
         classify_in_place(classifier, row, width, labels);
     } else {
-        classify_in_chunks(classifier, row, width, labels);
+        classifier->pieces(classifier, row, width, labels);
     }
     if (classifier->relabel) {
         pel_row_map(labels, width, classifier->relabel, labels);

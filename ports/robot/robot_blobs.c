@@ -156,6 +156,7 @@ static int set_up(struct robot *r)
     r->classifier.boxes = &r->boxes;
     r->classifier.range = PEL_RANGE_FULL;
     r->classifier.reader = pel_crow_read_yuv;
+    r->classifier.pieces = pel_classify_pieces;
     r->filter.area_min = ROBOT_AREA_MIN;
     return faults;
 }

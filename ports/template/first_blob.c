@@ -79,6 +79,7 @@ static pel_status take_line(const port_line_info *line)
     classifier.boxes = &boxes;
     classifier.range = CAMERA_RANGE;
     classifier.reader = pel_crow_read_yuv; /* of any camera; not needed for YCbCr */
+    classifier.pieces = pel_classify_pieces;
     return status < 0 ? status : pel_blobs_pixels(&blobs, line->y, &classifier, &line->row, labels);
 }
 

@@ -135,7 +135,8 @@ def test_table_as_c_source_classifies_as_the_table_does():
 #include <stdio.h>
 extern const uint8_t cells[65536];
 int main(void) {
-    const pel_classifier classifier = {.lut = {cells, 4, 6, 6}, .reader = pel_crow_read_yuv};
+    const pel_classifier classifier = {.lut = {cells, 4, 6, 6}, .reader = pel_crow_read_yuv,
+                                       .pieces = pel_classify_pieces};
     for (unsigned i = 0; i < 4096; i++)
         putchar('0' + pel_classify_color(&classifier, (uint8_t)(i >> 8 << 4),
                                          (uint8_t)(i >> 4 << 4), (uint8_t)(i << 4)));

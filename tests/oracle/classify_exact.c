@@ -125,8 +125,12 @@ static uint64_t count_wrong(const pel_classifier *classifier, unsigned u, unsign
 static void check_boxes(tally *checks, const char *name,
                         void (*make)(pel_color_box *boxes, unsigned count), unsigned count)
 {
-    const pel_classifier classifier = {
-        &tables, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
+    const pel_classifier classifier = {&tables,
+                                       {NULL, 0, 0, 0},
+                                       PEL_RANGE_FULL,
+                                       NULL,
+                                       .reader = pel_crow_read_yuv,
+                                       .pieces = pel_classify_pieces};
     pel_color_box boxes[PEL_CLASS_MAX];
     uint64_t wrong = 0, hits[PEL_CLASS_MAX + 1] = {0};
 
@@ -159,7 +163,8 @@ static void check_table(tally *checks, unsigned y_bits, unsigned u_bits, unsigne
                                        {cells, (uint8_t)y_bits, (uint8_t)u_bits, (uint8_t)v_bits},
                                        PEL_RANGE_FULL,
                                        NULL,
-                                       .reader = pel_crow_read_yuv};
+                                       .reader = pel_crow_read_yuv,
+                                       .pieces = pel_classify_pieces};
     const size_t size = pel_lut_bytes(y_bits, u_bits, v_bits);
     uint64_t wrong = size != (size_t)1 << (y_bits + u_bits + v_bits);
     char name[32];

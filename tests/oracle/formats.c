@@ -352,8 +352,12 @@ static void find_by_library(const test_frame *frame, pel_range range, int connec
                             blob_list *found)
 {
     static uint64_t work[PEL_BLOBS_WORDS(WIDTH_MAX, WIDTH_MAX, PEL_MEASURE_ALL)];
-    const pel_classifier classifier = {
-        &boxes, {NULL, 0, 0, 0}, range, NULL, .reader = pel_crow_read_yuv};
+    const pel_classifier classifier = {&boxes,
+                                       {NULL, 0, 0, 0},
+                                       range,
+                                       NULL,
+                                       .reader = pel_crow_read_yuv,
+                                       .pieces = pel_classify_pieces};
     pel_blobs_config config;
     pel_blobs blobs;
     uint8_t labels[WIDTH_MAX];

@@ -77,6 +77,7 @@ static void random_classifier(rng *random, scene *s)
     s->classifier.range = s->view.range;
     s->classifier.relabel = rng_below(random, 3) == 0 ? s->relabel : NULL;
     s->classifier.reader = pel_crow_read_yuv;
+    s->classifier.pieces = pel_classify_pieces;
     if (rng_below(random, 2) == 0) {
         const pel_backend wish = (pel_backend)rng_below(random, PEL_BACKEND_COUNT);
         check_that(pel_classify_plan_make(&s->plan, &s->boxes, wish) >= PEL_OK, "plan");

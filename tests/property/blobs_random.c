@@ -374,6 +374,7 @@ static void compare_frame(const ref_map *map, const picture *pixels, const pel_b
     config.results_max = PIXELS_MAX;
     classifier.boxes = boxes;
     classifier.reader = pel_crow_read_yuv;
+    classifier.pieces = pel_classify_pieces;
     classifier.range = pixels->range;
     status = pel_cview_init(pixels->bytes, pixels->format, pixels->range, map->width, map->height,
                             0, &view);

@@ -28,8 +28,12 @@ static void forget_boxes(void)
 
 static pel_classifier classifier_of_boxes(void)
 {
-    const pel_classifier classifier = {
-        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
+    const pel_classifier classifier = {&boxes,
+                                       {NULL, 0, 0, 0},
+                                       PEL_RANGE_FULL,
+                                       NULL,
+                                       .reader = pel_crow_read_yuv,
+                                       .pieces = pel_classify_pieces};
     return classifier;
 }
 
@@ -345,7 +349,8 @@ static void test_the_cell_of_a_colour_is_its_top_bits(void)
                                            {cells, bits[i][0], bits[i][1], bits[i][2]},
                                            PEL_RANGE_FULL,
                                            NULL,
-                                           .reader = pel_crow_read_yuv};
+                                           .reader = pel_crow_read_yuv,
+                                           .pieces = pel_classify_pieces};
         const unsigned size = 1u << (yb + ub + vb);
         TEST_ASSERT_EQUAL_UINT(size, pel_lut_bytes(yb, ub, vb));
         TEST_ASSERT_EQUAL_UINT(size, PEL_LUT_BYTES(yb, ub, vb));
@@ -363,8 +368,12 @@ static void test_the_cell_of_a_colour_is_its_top_bits(void)
 
 static void test_a_table_classifies_rows_of_every_format(void)
 {
-    const pel_classifier classifier = {
-        NULL, {cells, 4, 3, 3}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
+    const pel_classifier classifier = {NULL,
+                                       {cells, 4, 3, 3},
+                                       PEL_RANGE_FULL,
+                                       NULL,
+                                       .reader = pel_crow_read_yuv,
+                                       .pieces = pel_classify_pieces};
     for (unsigned i = 0; i < sizeof cells; i++) {
         cells[i] = (uint8_t)(i * 37);
     }
@@ -377,8 +386,12 @@ static void test_a_table_classifies_rows_of_every_format(void)
 static void test_boxes_come_before_a_table(void)
 {
     static const pel_color_box anything = {0, 255, 0, 255, 0, 255};
-    const pel_classifier classifier = {
-        &boxes, {cells, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
+    const pel_classifier classifier = {&boxes,
+                                       {cells, 0, 0, 0},
+                                       PEL_RANGE_FULL,
+                                       NULL,
+                                       .reader = pel_crow_read_yuv,
+                                       .pieces = pel_classify_pieces};
     forget_boxes();
     pel_boxes_set(&boxes, 4, &anything);
     cells[0] = 99;
@@ -411,8 +424,12 @@ static void test_several_boxes_can_stand_for_one_colour(void)
 
 static void test_a_table_may_use_every_label(void)
 {
-    const pel_classifier classifier = {
-        NULL, {cells, 8, 0, 0}, PEL_RANGE_FULL, map, .reader = pel_crow_read_yuv};
+    const pel_classifier classifier = {NULL,
+                                       {cells, 8, 0, 0},
+                                       PEL_RANGE_FULL,
+                                       map,
+                                       .reader = pel_crow_read_yuv,
+                                       .pieces = pel_classify_pieces};
     for (unsigned i = 0; i < 256; i++) {
         cells[i] = (uint8_t)(255 - i);
         map[i] = (uint8_t)(i ^ 0x55u);
@@ -522,10 +539,18 @@ static void test_rows_that_cannot_be_are_refused(void)
 
 static void test_a_classifier_without_classes_is_refused(void)
 {
-    static const pel_classifier nothing = {
-        NULL, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
-    static const pel_classifier too_fine = {
-        NULL, {cells, 9, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
+    static const pel_classifier nothing = {NULL,
+                                           {NULL, 0, 0, 0},
+                                           PEL_RANGE_FULL,
+                                           NULL,
+                                           .reader = pel_crow_read_yuv,
+                                           .pieces = pel_classify_pieces};
+    static const pel_classifier too_fine = {NULL,
+                                            {cells, 9, 0, 0},
+                                            PEL_RANGE_FULL,
+                                            NULL,
+                                            .reader = pel_crow_read_yuv,
+                                            .pieces = pel_classify_pieces};
     const pel_crow row = long_row(PEL_YUYV);
     uint8_t labels[LONG];
     TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_classify_row(&nothing, &row, labels));
@@ -539,13 +564,14 @@ static void test_only_boxes_on_ycbcr_do_without_a_reader(void)
     pel_classifier classifier = classifier_of_boxes();
     uint8_t labels[LONG];
     set_wide_boxes();
-    classifier.reader = NULL;
-    for (int f = 0; f < PEL_FORMAT_COUNT; f++) {
-        const pel_crow row = long_row(f);
+    for (int f = 0; f < 2 * PEL_FORMAT_COUNT; f++) {
+        const pel_crow row = long_row(f / 2);
+        classifier.reader = f % 2 ? NULL : pel_crow_read_yuv;
+        classifier.pieces = f % 2 ? pel_classify_pieces : NULL; /* one without the other */
         labels[0] = CANARY;
-        TEST_ASSERT_EQUAL_INT(f <= PEL_I420 ? PEL_OK : PEL_ERR_FORMAT,
+        TEST_ASSERT_EQUAL_INT(f / 2 <= PEL_I420 ? PEL_OK : PEL_ERR_FORMAT,
                               pel_classify_row(&classifier, &row, labels));
-        TEST_ASSERT_EQUAL_INT(f <= PEL_I420, labels[0] != CANARY);
+        TEST_ASSERT_EQUAL_INT(f / 2 <= PEL_I420, labels[0] != CANARY);
     }
     classifier.boxes = NULL;
     classifier.lut.cell = cells;

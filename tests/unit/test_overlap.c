@@ -84,8 +84,12 @@ static void test_y_u_and_v_go_to_different_places(void)
 static void test_labels_do_not_overwrite_their_row(void)
 {
     static pel_boxes boxes;
-    const pel_classifier classifier = {
-        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
+    const pel_classifier classifier = {&boxes,
+                                       {NULL, 0, 0, 0},
+                                       PEL_RANGE_FULL,
+                                       NULL,
+                                       .reader = pel_crow_read_yuv,
+                                       .pieces = pel_classify_pieces};
     const pel_crow yuyv = pel_crow_packed(memory + 32, PEL_YUYV, PEL_RANGE_FULL, 8);
     const pel_crow nv12 = {{memory + 32, memory + 64, NULL}, 8, PEL_NV12, PEL_RANGE_FULL};
     const pel_crow bayer = {{memory + 32, memory + 64, NULL}, 8, PEL_BAYER8_RGGB, PEL_RANGE_FULL};
@@ -105,8 +109,12 @@ static void test_frames_do_not_overwrite_themselves(void)
 {
     static pel_boxes boxes;
     static uint64_t work[PEL_BLOBS_WORDS(4, 4, 0)];
-    const pel_classifier classifier = {
-        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
+    const pel_classifier classifier = {&boxes,
+                                       {NULL, 0, 0, 0},
+                                       PEL_RANGE_FULL,
+                                       NULL,
+                                       .reader = pel_crow_read_yuv,
+                                       .pieces = pel_classify_pieces};
     pel_blobs_config config = {0};
     pel_blobs blobs;
     pel_cview view[2];
@@ -158,8 +166,12 @@ static void test_a_finder_does_not_read_what_it_writes(void)
     static uint64_t work[PEL_BLOBS_WORDS(8, 8, 0)];
     static pel_blob results[2];
     static pel_boxes boxes;
-    const pel_classifier classifier = {
-        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
+    const pel_classifier classifier = {&boxes,
+                                       {NULL, 0, 0, 0},
+                                       PEL_RANGE_FULL,
+                                       NULL,
+                                       .reader = pel_crow_read_yuv,
+                                       .pieces = pel_classify_pieces};
     pel_blobs_config config = {0};
     pel_blobs blobs = {0};
     pel_cview view;
@@ -215,8 +227,12 @@ static void test_a_refused_frame_leaves_the_labels_alone(void)
 {
     static uint64_t work[PEL_BLOBS_WORDS(8, 8, 0)];
     static pel_boxes boxes;
-    pel_classifier classifier = {
-        &boxes, {NULL, 0, 0, 0}, PEL_RANGE_FULL, NULL, .reader = pel_crow_read_yuv};
+    pel_classifier classifier = {&boxes,
+                                 {NULL, 0, 0, 0},
+                                 PEL_RANGE_FULL,
+                                 NULL,
+                                 .reader = pel_crow_read_yuv,
+                                 .pieces = pel_classify_pieces};
     pel_blobs_config config = {0};
     pel_blobs blobs = {0};
     pel_cview view;

@@ -23,8 +23,11 @@ extern "C" {
 
 #define pel_boxes_set PEL_FOR_CLASSES(pel_boxes_set)
 #define pel_classify_row PEL_FOR_CLASSES(pel_classify_row)
+#define pel_classify_pieces PEL_FOR_CLASSES(pel_classify_pieces)
 #define pel_classify_color PEL_FOR_CLASSES(pel_classify_color)
 #define pel_classify_frame PEL_FOR_CLASSES(pel_classify_frame)
+
+struct pel_classifier;
 
 /* The box of one class in YCbCr; both ends belong to it. A box with a min over its max is empty. */
 typedef struct pel_color_box {
@@ -76,6 +79,11 @@ typedef struct pel_classify_plan {
 pel_status pel_classify_plan_make(pel_classify_plan *plan, const pel_boxes *boxes,
                                   pel_backend backend);
 
+/* Classifies what a reader reads, see below; not to be called by programs. */
+typedef void pel_piecewise(const struct pel_classifier *classifier, const pel_crow *row,
+                           uint16_t width, uint8_t *labels);
+pel_piecewise pel_classify_pieces;
+
 /*
  * What classifies: boxes, or, where boxes is NULL, a look-up table. `range` is the colour range
  * that the classes were made for; a YCbCr row of the other range is refused, RGB rows are converted
@@ -83,7 +91,9 @@ pel_status pel_classify_plan_make(pel_classify_plan *plan, const pel_boxes *boxe
  * several boxes or cells can stand for one colour. Zero value: refused (no classes).
  *
  * Boxes work on YCbCr and gray rows as they are. A look-up table, and boxes on RGB and Bayer rows,
- * need a `reader`: pel_crow_read_yuv for any format, or one that links less (see pel_reader).
+ * need a `reader`: pel_crow_read_yuv for any format, or one that links less (see pel_reader), and
+ * as `pieces` the function that classifies what it reads: pel_classify_pieces. A program that names
+ * neither carries no code for them.
  */
 typedef struct pel_classifier {
     const pel_boxes *boxes;
@@ -92,6 +102,7 @@ typedef struct pel_classifier {
     const uint8_t *relabel;
     pel_reader *reader;
     const pel_classify_plan *plan; /* of these boxes; NULL: plain C */
+    pel_piecewise *pieces;
 } pel_classifier;
 
 /*
@@ -101,7 +112,7 @@ typedef struct pel_classifier {
  *
  * PEL_ERR_ARG: null pointer, unknown format or range, no classes, table bits over 8, labels that
  * overlap the row. PEL_ERR_FORMAT: impossible width, a colour range that is not the classifier's,
- * or no reader for this format.
+ * or no reader and pieces for this format.
  */
 pel_status pel_classify_row(const pel_classifier *classifier, const pel_crow *row, uint8_t *labels);
 

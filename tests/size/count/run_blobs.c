@@ -14,6 +14,7 @@ static void begin_boxes(const job *j)
     (void)j;
     classifier.boxes = &picture_classes;
     classifier.reader = pel_crow_read_yuv;
+    classifier.pieces = pel_classify_pieces;
 }
 
 /* 2 + 4 + 4 bits in 1 KiB of `work`; the cells' values do not change how many instructions it
