@@ -47,14 +47,9 @@ INLINE vec twice(vec bytes)
                                _mm256_inserti128_si256(_mm256_castsi128_si256(places), others, 1));
 }
 
-INLINE vec and_halves(vec bytes)
+INLINE int are_apart(vec a, vec b)
 {
-    return _mm256_and_si256(bytes, _mm256_permute4x64_epi64(bytes, 0x4E));
-}
-
-INLINE int is_zero(vec bytes)
-{
-    return _mm256_testz_si256(bytes, bytes);
+    return _mm256_testz_si256(a, b);
 }
 
 INLINE uint64_t equal_bytes(vec a, vec b)
@@ -92,11 +87,14 @@ INLINE chroma_tables chroma_tables_of(const uint8_t *nibbles)
     return t;
 }
 
-INLINE vec chroma_masks(const chroma_tables *t, vec nibble, vec values)
+INLINE chroma chroma_masks(const chroma_tables *t, vec nibble, vec values)
 {
-    return and_halves(masks_of(t, nibble, values));
+    const vec masks = masks_of(t, nibble, values);
+    const chroma c = {masks, _mm256_permute4x64_epi64(masks, 0x4E)};
+    return c;
 }
 
+#include "row/row_edges_template.h"
 #include "row/row_classify_template.h"
 
 #else

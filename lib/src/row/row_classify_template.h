@@ -10,10 +10,11 @@
  *                              does to every 16 bytes for themselves
  *     twice(bytes)             each byte of the low half twice
  *     chroma_tables, chroma_tables_of, chroma_masks
- *                              classes by chroma: of U in the low and V in the high half, the masks
- *                              together in the low half; beyond it 0 or the same again
- *     is_zero, equal_bytes     whether a vector is 0; a bit for each byte in which two are equal
- *     lowest_place, bit_count  of 64 bits; the place of none may be any
+ *                              the masks of classes by U and by V, both in the low half, from U in
+ *                              the low and V in the high half
+ *     are_apart(a, b)          whether no bit is set in both
+ *     equal_bytes(a, b)        a bit for each byte in which they are equal
+ *     put_edges                see row_edges_template.h
  *     ISA, INLINE, APART, KERNEL
  *                              for what a function is compiled, what it is called
  *
@@ -79,23 +80,24 @@ INLINE vec planar_chroma(const pel_row_pairs *src, size_t x)
  * then `labels` is not written. */
 INLINE int labels_at(const row *r, int is_packed, size_t x, vec *labels)
 {
-    vec a = r->order, b = a, chroma, luma;
+    vec a = r->order, b = a, luma;
+    chroma c;
     tables t;
 
     if (is_packed) {
         a = V(shuffle_epi8)(load(r->bytes + 2 * x), r->order);
         b = V(shuffle_epi8)(load(r->bytes + 2 * x + LANES), r->order);
-        chroma = chroma_masks(&r->chroma, r->nibble, fours(V(unpacklo_epi32)(a, b)));
+        c = chroma_masks(&r->chroma, r->nibble, fours(V(unpacklo_epi32)(a, b)));
     } else {
-        chroma = chroma_masks(&r->chroma, r->nibble, planar_chroma(r->src, x));
+        c = chroma_masks(&r->chroma, r->nibble, planar_chroma(r->src, x));
     }
-    if (is_zero(chroma)) {
+    if (are_apart(c.u, c.v)) {
         return 0;
     }
     luma = is_packed ? eights(V(unpackhi_epi64)(a, b)) : load(r->src->y + x);
     t = tables_of(r->nibbles);
-    *labels =
-        labels_of(r->constants, r->nibble, BITS(and)(masks_of(&t, r->nibble, luma), twice(chroma)));
+    *labels = labels_of(r->constants, r->nibble,
+                        BITS(and)(masks_of(&t, r->nibble, luma), twice(BITS(and)(c.u, c.v))));
     return 1;
 }
 
@@ -174,43 +176,6 @@ typedef struct run_writer {
     uint64_t inside;
 } run_writer;
 
-INLINE uint64_t put_place(uint16_t *edge, uint64_t bits, size_t x)
-{
-    *edge = (uint16_t)(x + lowest_place(bits));
-    return bits & (bits - 1);
-}
-
-/* A place for every bit; there is one. Two places are written, then four and four, whatever there
- * are, so that few jumps depend on the picture. Up to three of them are scratch, for which there is
- * room: the pixels before x have 2 x - 1 edges at most. */
-INLINE uint16_t *put_places(uint16_t *edge, uint64_t bits, size_t x)
-{
-    uint16_t *const end = edge + bit_count(bits);
-
-    bits = put_place(edge, bits, x);
-    bits = put_place(edge + 1, bits, x);
-    for (edge += 2; bits != 0; edge += 4) {
-        bits = put_place(edge, bits, x);
-        bits = put_place(edge + 1, bits, x);
-        bits = put_place(edge + 2, bits, x);
-        bits = put_place(edge + 3, bits, x);
-    }
-    return end;
-}
-
-/* The same where at some places, `both`, a run ends and the next one begins. */
-INLINE uint16_t *put_some_twice(uint16_t *edge, uint64_t bits, uint64_t both, size_t x)
-{
-    do {
-        const unsigned place = lowest_place(bits);
-        edge[0] = (uint16_t)(x + place);
-        edge[1] = (uint16_t)(x + place);
-        edge += 1 + (both >> place & 1);
-        bits &= bits - 1;
-    } while (bits != 0);
-    return edge;
-}
-
 /* The edges in a vector of labels behind the vector `last`, at the places that are in `keep`. */
 INLINE run_writer add_labels(run_writer writer, vec last, vec here, size_t x, uint64_t keep)
 {
@@ -218,9 +183,7 @@ INLINE run_writer add_labels(run_writer writer, vec last, vec here, size_t x, ui
 
     if (changes != 0) {
         const uint64_t nonzero = ~equal_bytes(V(set1_epi8)(0), here);
-        const uint64_t both = changes & nonzero & (nonzero << 1 | writer.inside);
-        writer.edge = both == 0 ? put_places(writer.edge, changes, x)
-                                : put_some_twice(writer.edge, changes, both, x);
+        writer.edge = put_edges(writer.edge, changes, nonzero, writer.inside, x);
         writer.inside = nonzero >> (LANES - 1) & 1;
     }
     return writer;

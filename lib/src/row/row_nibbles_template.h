@@ -69,3 +69,8 @@ INLINE vec labels_of(const uint8_t *constant, vec nibble, vec masks)
     const vec high = V(shuffle_epi8)(of_high, BITS(and)(V(srli_epi16)(masks, 4), nibble));
     return V(sub_epi8)(V(min_epu8)(low, high), everywhere(load16(constant + OF_ONES)));
 }
+
+/* Masks of chroma, by U and by V. */
+typedef struct chroma {
+    vec u, v;
+} chroma;

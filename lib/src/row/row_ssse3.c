@@ -42,9 +42,10 @@ INLINE vec twice(vec bytes)
     return _mm_unpacklo_epi8(bytes, bytes);
 }
 
-INLINE int is_zero(vec bytes)
+INLINE int are_apart(vec a, vec b)
 {
-    return _mm_movemask_epi8(_mm_cmpeq_epi8(bytes, _mm_setzero_si128())) == 0xFFFF;
+    const vec both = _mm_and_si128(a, b);
+    return _mm_movemask_epi8(_mm_cmpeq_epi8(both, _mm_setzero_si128())) == 0xFFFF;
 }
 
 INLINE uint64_t equal_bytes(vec a, vec b)
@@ -82,12 +83,14 @@ INLINE chroma_tables chroma_tables_of(const uint8_t *nibbles)
     return t;
 }
 
-INLINE vec chroma_masks(const chroma_tables *t, vec nibble, vec values)
+INLINE chroma chroma_masks(const chroma_tables *t, vec nibble, vec values)
 {
-    return _mm_and_si128(masks_of(&t->u, nibble, values),
-                         _mm_srli_si128(masks_of(&t->v, nibble, values), 8));
+    const chroma c = {masks_of(&t->u, nibble, values),
+                      _mm_srli_si128(masks_of(&t->v, nibble, values), 8)};
+    return c;
 }
 
+#include "row/row_edges_template.h"
 #include "row/row_classify_template.h"
 
 #else
