@@ -21,7 +21,7 @@ typedef enum pel_backend {
     PEL_BACKEND_SCALAR,   /* plain C */
     PEL_BACKEND_SSSE3,    /* x86, 16 bytes at a time */
     PEL_BACKEND_AVX2,     /* x86, 32 bytes */
-    PEL_BACKEND_AVX512,   /* x86 with AVX-512 VBMI, 64 bytes */
+    PEL_BACKEND_AVX512,   /* x86 with AVX-512 VBMI2, 64 bytes */
     PEL_BACKEND_NEON,     /* AArch64, 16 bytes */
     PEL_BACKEND_DSP,      /* Armv7E-M (Cortex-M4, M7, M33), 4 bytes */
     PEL_BACKEND_MVE,      /* Armv8.1-M with Helium (Cortex-M55), 16 bytes */

@@ -15,8 +15,8 @@
  *     are_apart(a, b)          whether no bit is set in both
  *     equal_bytes(a, b)        a bit for each byte in which they are equal
  *     put_edges                see row_edges_template.h
- *     ISA, INLINE, APART, KERNEL
- *                              for what a function is compiled, what it is called
+ *     ISA, INLINE, KERNEL      for what a function is compiled, what it is called
+ *     APART                    never inlined, so that a loop has the registers for itself
  *
  * The last vector of a row ends where the row ends and so overlaps the one before it: its pixels
  * are classified twice, and their runs found once. An odd last pixel is left over.
@@ -214,8 +214,8 @@ INLINE uint16_t end_runs(run_writer writer, const uint8_t *labels, size_t done, 
     return (uint16_t)((size_t)(writer.edge - edges) / 2);
 }
 
-/* What lies before a part does not matter to its second vector on, and of the part that overlaps
- * another the first pixel is skipped: `last` may begin with 0. */
+/* No part needs the labels before it: the first one begins with the row, and of the second one the
+ * first pixel is skipped. Labels of background are not stored. */
 INLINE run_writer runs_of_part(const row *r, int is_packed, part p, uint8_t *labels,
                                run_writer writer)
 {
