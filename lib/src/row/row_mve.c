@@ -207,8 +207,8 @@ INLINE uint8x16_t one_before(uint8x16_t labels, uint32_t *before)
     return labels;
 }
 
-/* Bit i: whether elements i differ. One compiler doubts that the upper half of a predicate in a core
- * register is 0, another does not know the name of the predicate. */
+/* Bit i: whether elements i differ. One compiler doubts that the upper half of a predicate in a
+ * core register is 0, another does not know the name of the predicate. */
 INLINE uint32_t different(uint8x16_t a, uint8x16_t b)
 {
 #if defined(__clang__)
