@@ -104,6 +104,26 @@ def test_files():
     refused(1, ["none.pgm"], "bench", "none.pgm")
 
 
+def test_the_table_of_the_readme():
+    rows = table(*ALONE, "--input", "synth,rand4")
+    with open("bench.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, rows[0])
+        writer.writeheader()
+        writer.writerows(rows)
+    write("README.md", b"a\n<!-- speed begin -->\nold\n<!-- speed end -->\nz\n")
+    script = os.path.join(SOURCE, "tools", "bench_readme.py")
+    subprocess.run([sys.executable, script, "bench.csv", "README.md"], check=True)
+    with open("README.md", encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    equal((lines[0], lines[1], lines[-2:]),
+          ("a", "<!-- speed begin -->", ["<!-- speed end -->", "z"]))
+    median, = (row for row in rows if (row["operator"], row["backend"], row["input"])
+               == ("median", "scalar", "synth"))
+    line, = (line for line in lines if line.startswith("| 3x3 median, synth | "))
+    equal(line.split(" | ")[1], "%.3f" % float(median["ns_per_px"]))
+    true(any("to blobs, rand4" in line for line in lines) and "old" not in lines, lines)
+
+
 # ---- For people --------------------------------------------------------------------------------
 
 
