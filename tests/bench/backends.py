@@ -3,9 +3,9 @@
 
     backends.py PEL [RUNS]
 
-Prints the time of every operator with every backend on frames of several sizes, as a part of that of
-plain C. Times jump on busy machines: what seems slower is measured again on its own, and is so if
-even the smallest of its parts is over the limit.
+Prints the time of every operator with every backend on frames of several sizes, as a part of that
+of plain C. Times jump on busy machines: what seems slower is measured again on its own, and is so
+if even the smallest of its parts is over the limit.
 """
 import collections
 import csv

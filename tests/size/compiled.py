@@ -24,19 +24,20 @@ TARGETS = [firmware.HOST] + [core for core in firmware.CORES if core.name in
 
 # HOST: what only files that are empty on microcontrollers may do.
 #
-# Kernels with taps hold more vectors than there are registers (of 5 x 5 taps 20, of up to 64 bytes
-# each), and a host's stack has megabytes.
+# Kernels with taps or tables hold more vectors than there are registers (of 5 x 5 taps 20, of up to
+# 64 bytes each), and a host's stack has megabytes.
 VECTOR_FRAME_LIMIT = 1536
 # Root and quotient of whole numbers below 2^22 in single precision are exact after truncation: both
 # instructions are correctly rounded, see row_filter_template.h; equal_filter.c tries all roots.
 EXACT_FLOATS = r"v?(cvtdq2ps|cvttps2dq|sqrtps|divps)"
-VECTOR_FILES = re.compile(r"row_filter_(ssse3|avx2|avx512)")
+FLOAT_FILES = re.compile(r"row_filter_(ssse3|avx2|avx512)")
+VECTOR_FILES = re.compile(r"row_(filter_|point_)?(ssse3|avx2|avx512)")
 # What the compiler's start-up code found out about the processor, and how shared objects get there.
 HOST_SYMBOLS = ("__cpu_model", "_GLOBAL_OFFSET_TABLE_")
 
 
-def is_vector_file(target, stem):
-    return target is firmware.HOST and VECTOR_FILES.fullmatch(stem.name)
+def is_one_of(names, target, stem):
+    return target is firmware.HOST and names.fullmatch(stem.name)
 
 
 def stack_frames(stem):
@@ -60,9 +61,10 @@ def check_objects(report, target, stems, where):
         text, data, bss = firmware.sizes(target, f"{stem}.o")
         total += text
         report.check(data == 0 and bss == 0, f"{where}: {stem.name}: data {data}, bss {bss}")
-        limit = VECTOR_FRAME_LIMIT if is_vector_file(target, stem) else STACK_FRAME_LIMIT
+        is_vector_file = is_one_of(VECTOR_FILES, target, stem)
+        limit = VECTOR_FRAME_LIMIT if is_vector_file else STACK_FRAME_LIMIT
         floats = [line for line in float_lines(target, stem) if not
-                  (is_vector_file(target, stem) and re.match(EXACT_FLOATS + r"\s", line))]
+                  (is_one_of(FLOAT_FILES, target, stem) and re.match(EXACT_FLOATS + r"\s", line))]
         report.check(not floats, f"{where}: {stem.name}: floating point: {floats[:3]}")
         for function, size, kind in stack_frames(stem):
             # "dynamic,bounded" is a frame that pushes arguments: its size is the most it can be.
