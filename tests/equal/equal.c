@@ -1,8 +1,8 @@
 /*
  * Every row kernel with every backend that this machine has, against plain C, bit for bit:
  * widths from 0 to three vectors and three, offsets 0..31, eight kinds of patterns, and random
- * long rows; with canaries on both sides of the result. Then whole frames through filters. In a sanitized build the rows end where
- * their memory ends, so that a read behind them is seen, too.
+ * long rows; with canaries on both sides of the result. Then whole frames through filters. In a
+ * sanitized build the rows end where their memory ends, so that a read behind them is seen, too.
  *
  *   equal [SEED]
  */
