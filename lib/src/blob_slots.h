@@ -2,6 +2,7 @@
 #ifndef PEL_BLOB_SLOTS_H
 #define PEL_BLOB_SLOTS_H
 
+#include "classifier.h"
 #include "overlap.h"
 #include "pel/blobs.h"
 
@@ -31,14 +32,6 @@ static inline uint16_t place_of(const uint16_t *id)
 }
 
 typedef struct pel_blob_slot slot;
-
-/* Keeps a function out of its caller, so that what it needs of the stack is not there while the
- * caller calls others. */
-#if defined(__GNUC__)
-#define PEL_I_APART __attribute__((noinline))
-#else
-#define PEL_I_APART
-#endif
 
 /* Instead of a slot, a run's blob may be NO_BLOB (joined nothing yet), or LOST + its label - 1. */
 #define LOST 0xFF00u

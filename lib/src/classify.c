@@ -197,17 +197,14 @@ static int views_overlap(const pel_cview *a, const pel_cview *labels)
     return pel_i_view_overlaps(a, lowest, (size_t)(reach < 0 ? -reach : reach) + labels->width);
 }
 
-pel_status pel_classify_frame(const pel_classifier *classifier, const pel_cview *view,
-                              const pel_view *labels)
+/* What pel_classify_frame refuses; what the first row is refused for, all are. */
+PEL_I_APART static pel_status check_frame(const pel_classifier *classifier, const pel_cview *view,
+                                          const pel_view *labels)
 {
-    pel_cview out;
-    pel_status status;
+    const pel_cview out = pel_view_to_read(labels);
+    pel_status status = classifier && view && labels ? pel_cview_check(view) : PEL_ERR_ARG;
+    pel_crow row;
 
-    if (!classifier || !view || !labels) {
-        return PEL_ERR_ARG;
-    }
-    out = pel_view_to_read(labels);
-    status = pel_cview_check(view);
     if (status == PEL_OK) {
         status = pel_cview_check(&out);
     }
@@ -224,10 +221,19 @@ pel_status pel_classify_frame(const pel_classifier *classifier, const pel_cview 
     if (views_overlap(view, &out)) {
         return PEL_ERR_ARG;
     }
-    for (uint16_t y = 0; y < out.height && status == PEL_OK; y++) {
+    row = pel_cview_row(view, 0);
+    return pel_i_classify_check(classifier, &row, labels->plane[0]);
+}
+
+pel_status pel_classify_frame(const pel_classifier *classifier, const pel_cview *view,
+                              const pel_view *labels)
+{
+    const pel_status status = check_frame(classifier, view, labels);
+
+    for (uint16_t y = 0; status == PEL_OK && y < labels->height; y++) {
         const pel_crow row = pel_cview_row(view, y);
-        status = pel_classify_row(classifier, &row,
-                                  labels->plane[0] + (ptrdiff_t)labels->stride_bytes[0] * y);
+        classify(classifier, &row, labels->width,
+                 labels->plane[0] + (ptrdiff_t)labels->stride_bytes[0] * y);
     }
     return status;
 }
