@@ -219,12 +219,12 @@ pel_status pel_filter_pull_s16(pel_filter *filter, int16_t *out);
 /* ---- Whole frames -------------------------------------------------------------------------- */
 
 /*
- * Filters a GRAY8 view: the results are those of push and pull. config.width, height and last_rows
- * are filled in. (With vector instructions of hosts, rows are read where they lie; an operator is
- * then called for parts of rows, and for several rows at once.) `dst` has the size of the result. It
- * may be the same pixels as `src` (same plane and stride); otherwise they must not overlap.
- * PEL_ERR_FORMAT: not GRAY8. PEL_ERR_SPACE: dst has another size. PEL_ERR_ARG: overlap, null
- * pointer. Others as of begin and pull.
+ * Filters a GRAY8 view: the results are those of push and pull. (With the vector instructions of
+ * x86 rows are read where they lie; an operator is then called for parts of rows, and for several
+ * rows at once.) config.width, height and last_rows are filled in. `dst` has the size of the
+ * result. It may be the same pixels as `src` (same plane and stride); otherwise they must not
+ * overlap. PEL_ERR_FORMAT: not GRAY8. PEL_ERR_SPACE: dst has another size. PEL_ERR_ARG: overlap,
+ * null pointer. Others as of begin and pull.
  */
 pel_status pel_filter_frame(const pel_filter_config *config, const pel_cview *src,
                             const pel_view *dst);
