@@ -22,7 +22,7 @@ INDIRECT = (
     (r"\bon_response\(", None),
     (r"->accept\(|config\.accept\(", r"pel_blob_shape_passes"),
     (r"\bmeasurer\(", r"pel_blobs_measure"),
-    (r"\bpieces\(", r"pel_classify_pieces"),
+    (r"\bpieces\(", r"pel_classify_pieces(_\d+)?"),
     (r"\breader\(", r"pel_crow_read_\w+"),
     (r"\bread\(row", r"rgb_of_\w+"),
     (r"\bop\(|\bop_s16\(", r"pel_op_\w+"),

@@ -66,7 +66,7 @@ def test_compare():
 
 
 def test_limits():
-    for item, most in (("classify and blobs", 6144), ("generic 3x3, all borders", 2048),
+    for item, most in (("classify and blobs", 4096), ("generic 3x3, all borders", 2048),
                        ("whole library", 49152)):
         check(outcome(budgets.check_limits, [row("linked", most, item)])[:2] == (1, 0), item)
         check(outcome(budgets.check_limits, [row("linked", most + 1, item)])[:2] == (0, 1), item)
