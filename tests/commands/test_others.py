@@ -186,8 +186,8 @@ def test_budget_by_hand():
 
 
 def test_budget_of_measures():
-    for words, slot in (("none", 24), ("moments", 48), ("outline", 32), ("color", 36),
-                        ("all", 68), ("outline,color", 44)):
+    for words, slot in (("none", 24), ("moments", 48), ("outline", 32), ("color", 40),
+                        ("all", 72), ("outline,color", 48)):
         got = parts("100x100", "--open", 10, "--measure", words)
         equal(got["working memory"], eights(10 * slot + 12 * 101), words)
 
