@@ -4,8 +4,9 @@
     backends.py PEL [RUNS]
 
 Prints the time of every operator with every backend on frames of several sizes, as a part of that
-of plain C. Times jump on busy machines: what seems slower is measured again on its own, and is so
-if even the smallest of its parts is over the limit.
+of plain C. Times jump on busy machines: what seems slower is measured again on its own, and the
+smallest of its parts counts. What is over SLOWER is marked, what is over WRONG fails: by that much
+no noise was seen to make a backend slower that many times in a row.
 """
 import collections
 import csv
@@ -14,7 +15,8 @@ import subprocess
 import sys
 
 SIZES = ("16x16", "20x16", "34x16", "66x32", "98x32", "160x120", "640x480")
-LIMIT = 1.05  # equal code differs by as much
+SLOWER = 1.05  # equal code differs by as much
+WRONG = 1.25
 TRIES = 6
 
 
@@ -36,7 +38,7 @@ def parts_of(pel, runs, size):
     for _ in range(TRIES):
         over = collections.defaultdict(list)
         for (operator, backend), part in parts.items():
-            if part > LIMIT:
+            if part > SLOWER:
                 over[operator].append(backend)
         if not over:
             break
@@ -54,11 +56,11 @@ def main():
         print(f"{size:18}" + "".join(f"{backend:>8}" for backend in backends))
         for operator in dict.fromkeys(operator for operator, _ in parts):
             row = [parts[operator, backend] for backend in backends]
-            slow = [part > LIMIT for part in row]
+            wrong = [part > WRONG for part in row]
             print(f"  {operator:16}" + "".join(f"{part:8.3f}" for part in row)
-                  + ("  slower" if any(slow) else ""))
-            passed += slow.count(False)
-            failed += slow.count(True)
+                  + ("  slower" if max(row) > SLOWER else ""))
+            passed += wrong.count(False)
+            failed += wrong.count(True)
     if passed + failed == 0:
         print("this machine has no backend but plain C")
         print("0 passed, 0 failed, 1 skipped")
