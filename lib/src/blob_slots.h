@@ -11,8 +11,8 @@ struct pel_blob_slot {
     uint32_t area; /* in the free and in the united list: the next slot */
     uint32_t sum_x, sum_y;
     uint16_t x0, x1, y0;
-    uint16_t newest; /* the place_of its newest run */
-    uint16_t parent; /* itself for a root; in the closed list: the next slot */
+    uint16_t newest; /* the row of its newest run */
+    uint16_t parent; /* itself for a root */
     uint8_t label;
     uint8_t broken; /* a run of the blob was lost */
 };
@@ -25,15 +25,10 @@ struct pel_blob_slot {
  *   colour   2: y in the low and u in the high half, each 255 * 2^22 < 2^30; v
  */
 
-/* Tells the runs of the newest two rows apart: their blobs' ids lie in less than 2^16 bytes. */
-static inline uint16_t place_of(const uint16_t *id)
-{
-    return (uint16_t)(uintptr_t)id;
-}
-
 typedef struct pel_blob_slot slot;
 
-/* Instead of a slot, a run's blob may be NO_BLOB (joined nothing yet), or LOST + its label - 1. */
+/* Instead of a slot, a run's blob may be NO_BLOB (none yet; also behind the last run of a row), or
+ * LOST + its label - 1. */
 #define LOST 0xFF00u
 #define NO_BLOB 0xFFFFu
 

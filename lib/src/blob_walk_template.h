@@ -1,18 +1,17 @@
 /*
  * Streaming connected components: how a row joins the open blobs.
  *
- * The runs of the row have been found. One walk from left to right goes over them and over the
- * runs of the row above:
+ * The runs of the row have been found. One walk from left to right goes over them, with the runs of
+ * the row above beside it:
  *   join     each run to the open blobs whose runs it touches above; blobs that turn out to be one
  *            are united (a union-find forest over the slots)
  *   add      the run to the sums of its blob; one that touches none opens a blob
- *   list     a blob as closed when the walk has passed its last run above and no run of this row
- *            had joined it: each blob knows its newest run
- * After the walk the listed blobs are reported. United slots are kept, as runs may still refer to
- * them, until a run finds no free slot. Then the runs of the row learn the roots of their trees,
- * the united slots become free, and the runs without get slots now, if there are any. So a blob is
- * lost only if more blobs than slots are open after the row, and as every open blob owns a run of
- * it, there are never more of them than runs in a row.
+ * Then a blob that has a run in the row above, but none in this one, has ended and is reported.
+ * United slots are kept, as runs may still refer to them, until a run finds no free slot. Then the
+ * runs of the row learn the roots of their trees, the united slots become free, and the runs
+ * without get slots now, if there are any. So a blob is lost only if more blobs than slots are open
+ * after the row, and as every open blob owns a run of it, there are never more of them than runs in
+ * a row.
  *
  * This file is a part of blobs.c and of blobs_measure.c, which say before it what their blobs
  * measure beyond area, box and sums: clear_extras, unite_extras, touch_extras, add_extras,
@@ -36,12 +35,15 @@ static void free_slot(pel_blobs *b, unsigned id)
     b->free_slot = (uint16_t)id;
 }
 
-/* Opens a blob without pixels in a slot that is free. */
-static inline unsigned open_blob(pel_blobs *b, unsigned label)
+/* Opens a blob without pixels in a slot that is free; NULL if there is none. */
+static inline slot *open_blob(pel_blobs *b, unsigned label)
 {
     const uint16_t id = b->free_slot;
     slot *const t = &b->slots[id];
 
+    if (id == END) {
+        return NULL;
+    }
     b->free_slot = (uint16_t)t->area;
     t->area = 0;
     t->sum_x = 0;
@@ -54,15 +56,15 @@ static inline unsigned open_blob(pel_blobs *b, unsigned label)
     t->broken = 0;
     clear_extras(b, id);
     b->open_count++;
-    return id;
+    return t;
 }
 
 /* Two different roots become one, which is returned. The other goes to the list of united slots:
  * runs of this row and of the row above still refer to it. */
-static unsigned unite(pel_blobs *b, unsigned id1, unsigned id2)
+static inline slot *unite(pel_blobs *b, slot *one, slot *two)
 {
-    const unsigned into = id1 < id2 ? id1 : id2, from = id1 < id2 ? id2 : id1;
-    slot *const t = &b->slots[into], *const f = &b->slots[from];
+    slot *const t = one < two ? one : two, *const f = one < two ? two : one;
+    const uint16_t from = f->parent;
 
     t->area += f->area;
     t->sum_x += f->sum_x;
@@ -71,51 +73,46 @@ static unsigned unite(pel_blobs *b, unsigned id1, unsigned id2)
     t->x1 = f->x1 > t->x1 ? f->x1 : t->x1;
     t->y0 = f->y0 < t->y0 ? f->y0 : t->y0;
     t->broken = (uint8_t)(t->broken | f->broken);
-    unite_extras(b, into, from);
-    f->newest = t->newest; /* the walk must not take the place of a run of f for the end of f */
-    f->parent = (uint16_t)into;
+    unite_extras(b, t->parent, from);
+    f->parent = t->parent;
     f->area = b->united_slot;
-    b->united_slot = (uint16_t)from;
+    b->united_slot = from;
     b->open_count--;
-    return into;
+    return t;
 }
 
 /* ---- Runs join blobs ----------------------------------------------------------------------- */
 
-static inline unsigned label_of_id(const slot *slots, unsigned id)
+/* A run of the blob `mine`, or of none so far, touches a run of blob `above`: what it has now.
+ * Apart, as most runs have one blob above and come without: the walk keeps its registers. */
+PEL_I_APART static slot *join_blob(pel_blobs *b, slot *mine, unsigned above)
 {
-    return id < LOST ? slots[id].label : id - LOST + 1;
+    slot *const t = &b->slots[find_root(b->slots, above)];
+    return !mine || mine == t ? t : unite(b, mine, t);
 }
 
-/* A run whose blob so far is `id` touches a run of blob `above`: the blob that it has now. */
-static unsigned touch(pel_blobs *b, unsigned id, unsigned above)
+/* A run has no slot, or touches one above that was lost, and is so itself. On the first walk over a
+ * row it may get a slot later; on the second it is lost. What stands for its blob is returned. */
+PEL_I_APART static uint16_t lose(pel_blobs *b, pel_run run, unsigned label, int touches_lost,
+                                 int second)
 {
-    if (above >= LOST) {
-        if (id < LOST) {
-            b->slots[id].broken = 1;
-        }
-        return id < LOST ? id : above;
+    if (!touches_lost && !second) {
+        b->late = 1;
+        return NO_BLOB;
     }
-    above = find_root(b->slots, above);
-    if (id == NO_BLOB || id == above) {
-        return above;
+    if (!touches_lost) {
+        b->counts.lost_opens++;
     }
-    if (id >= LOST) {
-        b->slots[above].broken = 1;
-        return above;
-    }
-    return unite(b, id, above);
+    b->counts.lost_px += (uint32_t)(run.x1 - run.x0);
+    return (uint16_t)(LOST + label - 1);
 }
 
 /* ---- Blobs gather the pixels of the row ---------------------------------------------------- */
 
 /* n * s is even: where n is odd, s is even. */
-static inline void add_run(pel_blobs *b, unsigned id, pel_run run, const uint16_t *place,
-                           uint64_t touched)
+static inline void add_run(const pel_blobs *b, slot *t, pel_run run, unsigned y, uint64_t touched)
 {
-    slot *const t = &b->slots[id];
     const uint32_t n = (uint32_t)run.x1 - run.x0, s = (uint32_t)run.x0 + run.x1 - 1;
-    const uint32_t y = b->next_row;
 
     t->area += n;
     t->sum_x += n * s / 2;
@@ -126,18 +123,24 @@ static inline void add_run(pel_blobs *b, unsigned id, pel_run run, const uint16_
     if (run.x1 > t->x1) {
         t->x1 = run.x1;
     }
-    t->newest = place_of(place);
-    add_extras(b, id, run, touched);
+    t->newest = (uint16_t)y;
+    add_extras(b, t->parent, run, touched);
 }
 
 /* ---- Blobs that end ------------------------------------------------------------------------ */
 
 PEL_I_APART static void describe(const pel_blobs *b, unsigned id, pel_blob *blob)
 {
-    const pel_blob zero = {0};
     const slot *const s = &b->slots[id];
 
-    *blob = zero;
+    blob->sum_xx = 0;
+    blob->sum_xy = 0;
+    blob->sum_yy = 0;
+    blob->perimeter = 0;
+    blob->holes = 0;
+    blob->mean_y = 0;
+    blob->mean_u = 0;
+    blob->mean_v = 0;
     blob->area = s->area;
     blob->sum_x = s->sum_x;
     blob->sum_y = s->sum_y;
@@ -153,97 +156,98 @@ PEL_I_APART static void describe(const pel_blobs *b, unsigned id, pel_blob *blob
     describe_extras(b, id, blob);
 }
 
-/* Closes the listed blobs: their last row is the one above. The filter lets most blobs of a noisy
- * picture go by their area: those are spared the description. */
-PEL_I_APART static void close_listed(pel_blobs *b)
+/* The filter lets most blobs of a noisy picture go by their area: those are spared the
+ * description. */
+static inline void close_blob(pel_blobs *b, unsigned id)
 {
-    for (unsigned id = b->closed_slot, next; id != END; id = next) {
-        const slot *const s = &b->slots[id];
-        next = s->parent;
-        if (s->broken) {
-            b->counts.lost_px += s->area;
-        } else if (b->config.filter && s->area < b->config.filter->area_min) {
-            b->counts.filtered++;
-            b->counts.filtered_px += s->area;
-        } else {
-            pel_blob blob;
-            describe(b, id, &blob);
-            pel_i_blobs_report(b, &blob);
+    const slot *const s = &b->slots[id];
+
+    if (s->broken) {
+        b->counts.lost_px += s->area;
+    } else if (b->config.filter && s->area < b->config.filter->area_min) {
+        b->counts.filtered++;
+        b->counts.filtered_px += s->area;
+    } else {
+        pel_blob blob;
+        describe(b, id, &blob);
+        pel_i_blobs_report(b, &blob);
+    }
+    free_slot(b, id);
+    b->open_count--;
+}
+
+/* Closes the blobs that have runs above and none in this row. Each is closed once: it is given a
+ * run in this row. */
+PEL_I_APART static void close_ended(pel_blobs *b)
+{
+    slot *const slots = b->slots;
+    const unsigned y = b->next_row;
+
+    for (const uint16_t *above = b->ids[b->above];; above++) {
+        const unsigned id = *above;
+        if (id >= LOST) {
+            if (id == NO_BLOB) {
+                return;
+            }
+        } else if (slots[id].newest != y && slots[id].parent == id) {
+            slots[id].newest = (uint16_t)y;
+            close_blob(b, id);
         }
-        free_slot(b, id);
-        b->open_count--;
     }
 }
 
 /* ---- A row --------------------------------------------------------------------------------- */
 
-/* A run that touches none opens a blob. On the first walk over a row it may do so later; on the
- * second it is lost if there is still no slot. */
-static inline unsigned open_or_lose(pel_blobs *b, unsigned label, int second)
-{
-    if (b->free_slot != END) {
-        return open_blob(b, label);
-    }
-    if (!second) {
-        return NO_BLOB;
-    }
-    b->counts.lost_opens++;
-    return LOST + label - 1;
-}
-
 /*
- * The walk over the runs of the row from one on, with those of the row above beside it; returns
- * whether a run found no free slot. The last run of a row is behind its end: it touches nothing,
- * but all of the row above is passed before it.
+ * The walk over the runs of the row from one on, with those of the row above beside it. The last
+ * run of either row is behind its end and touches nothing.
  */
-PEL_I_APART static int walk(pel_blobs *b, size_t first, const pel_run *above, const uint8_t *labels,
-                            int second)
+PEL_I_APART static void walk(pel_blobs *b, size_t first, const pel_run *above,
+                             const uint8_t *labels, int second)
 {
     const pel_run *next = b->runs[1 - b->above] + first;
     uint16_t *place = b->ids[1 - b->above] + first;
-    const uint16_t *place_above = b->ids[b->above];
+    const uint16_t *id_above = b->ids[b->above];
     slot *const slots = b->slots;
+    const unsigned y = b->next_row;
     const int reach = b->reach;
-    uint16_t *closed = &b->closed_slot;
-    int late = 0;
 
-    for (;; place++) {
-        const pel_run run = *next++;
-        const int from = (int)run.x0 - reach, to = (int)run.x1 + reach; /* from may be -1 */
-        unsigned id = NO_BLOB, label;
+    for (;; next++, place++) {
+        const unsigned x0 = next->x0, x1 = next->x1;
+        const int from = (int)x0 - reach, to = (int)x1 + reach; /* from may be -1 */
+        const uint16_t *id = id_above;
+        slot *mine = NULL;
         uint64_t touched = 0;
-        for (; (int)above->x1 <= from; above++, place_above++) {
-            const unsigned other = *place_above;
-            if (other < LOST && slots[other].newest == place_of(place_above)) {
-                *closed = (uint16_t)other;
-                closed = &slots[other].parent;
-            }
-        }
+        unsigned label;
+        int touches_lost = 0;
         if (to >= BEYOND) {
-            *closed = END;
-            return late;
+            return;
         }
-        label = labels[run.x0];
-        for (size_t k = 0; (int)above[k].x0 < to; k++) {
-            const unsigned other = place_above[k];
-            if (label_of_id(slots, other) == label) {
-                id = id == NO_BLOB && other < LOST && slots[other].parent == other
-                         ? other
-                         : touch(b, id, other);
-                touched += touch_extras(run, above[k]);
+        label = labels[x0];
+        for (; (int)above->x1 <= from; above++) {
+            id = ++id_above;
+        }
+        for (const pel_run *other = above; (int)other->x0 < to; other++, id++) {
+            slot *const t = &slots[*id];
+            if (*id >= LOST) {
+                touches_lost |= *id == LOST + label - 1;
+            } else if (t->label == label) {
+                mine = mine || t->parent != *id ? join_blob(b, mine, *id) : t;
+                touched += touch_extras(*next, *other);
             }
         }
-        if (id == NO_BLOB) {
-            id = open_or_lose(b, label, second);
+        if (!mine && !touches_lost) {
+            mine = open_blob(b, label);
         }
-        *place = (uint16_t)id;
-        if (id < LOST) {
-            add_run(b, id, run, place, touched);
-        } else if (id == NO_BLOB) {
-            late = 1;
-        } else {
-            b->counts.lost_px += (uint32_t)(run.x1 - run.x0);
+        if (!mine) {
+            *place = lose(b, *next, label, touches_lost, second);
+            continue;
         }
+        if (touches_lost) {
+            mine->broken = 1;
+        }
+        *place = mine->parent;
+        add_run(b, mine, *next, y, touched);
     }
 }
 
@@ -270,18 +274,20 @@ PEL_I_APART static void join_row(pel_blobs *b, size_t count, const uint8_t *labe
 {
     const pel_run beyond = {BEYOND - 1, BEYOND};
     pel_run *const runs = b->runs[1 - b->above];
-    int late;
+    uint16_t *const ids = b->ids[1 - b->above];
 
     runs[count] = beyond;
-    late = walk(b, 0, b->runs[b->above], labels, 0);
-    close_listed(b);
-    if (late) {
+    ids[count] = NO_BLOB;
+    b->late = 0;
+    walk(b, 0, b->runs[b->above], labels, 0);
+    close_ended(b);
+    if (b->late) {
         settle(b, count);
         for (size_t i = 0; i < count; i++) {
-            if (b->ids[1 - b->above][i] == NO_BLOB) {
+            if (ids[i] == NO_BLOB) {
                 const pel_run next = runs[i + 1];
                 runs[i + 1] = beyond;
-                (void)walk(b, i, &runs[i + 1], labels, 1);
+                walk(b, i, &runs[i + 1], labels, 1);
                 runs[i + 1] = next;
             }
         }

@@ -92,6 +92,7 @@ pel_status pel_blobs_begin(pel_blobs *b, const pel_blobs_config *config)
     lay_out(b);
     free_all_slots(b);
     b->runs[0][0] = beyond;
+    b->ids[0][0] = NO_BLOB;
     b->state = STATE_ROWS;
     return PEL_OK;
 }
