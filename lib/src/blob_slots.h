@@ -35,9 +35,13 @@ typedef struct pel_blob_slot slot;
 /* Ends the lists of slots. */
 #define END 0xFFFFu
 
+/* Bits of pel_blobs.losses: a run of this row found no slot so far; runs of this row were lost; of
+ * the row above. */
+enum { LATE = 1, LOST_HERE = 2, LOST_ABOVE = 4 };
+
 /* The run behind the last of a row, BEYOND - 1 .. BEYOND: every search stops there. One more still
- * fits an int of 16 bits. */
-enum { BEYOND = 0x7FFE };
+ * fits an int of 16 bits, and Thumb-2 compares with it at once. */
+enum { BEYOND = 0x7F00 };
 
 enum { STATE_IDLE, STATE_ROWS };
 

@@ -91,18 +91,31 @@ PEL_I_APART static slot *join_blob(pel_blobs *b, slot *mine, unsigned above)
     return !mine || mine == t ? t : unite(b, mine, t);
 }
 
+/* Whether a run of the label that ends before `to` touches one that was lost. */
+PEL_I_APART static int touches_lost(const pel_run *above, const uint16_t *id, int to,
+                                    unsigned label)
+{
+    for (; (int)above->x0 < to; above++, id++) {
+        if (*id == LOST + label - 1) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* A run has no slot, or touches one above that was lost, and is so itself. On the first walk over a
  * row it may get a slot later; on the second it is lost. What stands for its blob is returned. */
-PEL_I_APART static uint16_t lose(pel_blobs *b, pel_run run, unsigned label, int touches_lost,
+PEL_I_APART static uint16_t lose(pel_blobs *b, pel_run run, unsigned label, int by_touch,
                                  int second)
 {
-    if (!touches_lost && !second) {
-        b->late = 1;
+    if (!by_touch && !second) {
+        b->losses = (uint8_t)(b->losses | LATE);
         return NO_BLOB;
     }
-    if (!touches_lost) {
+    if (!by_touch) {
         b->counts.lost_opens++;
     }
+    b->losses = (uint8_t)(b->losses | LOST_HERE);
     b->counts.lost_px += (uint32_t)(run.x1 - run.x0);
     return (uint16_t)(LOST + label - 1);
 }
@@ -210,7 +223,7 @@ PEL_I_APART static void walk(pel_blobs *b, size_t first, const pel_run *above,
     const uint16_t *id_above = b->ids[b->above];
     slot *const slots = b->slots;
     const unsigned y = b->next_row;
-    const int reach = b->reach;
+    const int reach = b->reach, lossy = b->losses & LOST_ABOVE;
 
     for (;; next++, place++) {
         const unsigned x0 = next->x0, x1 = next->x1;
@@ -219,8 +232,8 @@ PEL_I_APART static void walk(pel_blobs *b, size_t first, const pel_run *above,
         slot *mine = NULL;
         uint64_t touched = 0;
         unsigned label;
-        int touches_lost = 0;
-        if (to >= BEYOND) {
+        int lost;
+        if (x1 == BEYOND) {
             return;
         }
         label = labels[x0];
@@ -229,21 +242,19 @@ PEL_I_APART static void walk(pel_blobs *b, size_t first, const pel_run *above,
         }
         for (const pel_run *other = above; (int)other->x0 < to; other++, id++) {
             slot *const t = &slots[*id];
-            if (*id >= LOST) {
-                touches_lost |= *id == LOST + label - 1;
-            } else if (t->label == label) {
+            if (*id < LOST && t->label == label) {
                 mine = mine || t->parent != *id ? join_blob(b, mine, *id) : t;
                 touched += touch_extras(*next, *other);
             }
         }
-        if (!mine && !touches_lost) {
-            mine = open_blob(b, label);
-        }
+        lost = lossy && touches_lost(above, id_above, to, label);
         if (!mine) {
-            *place = lose(b, *next, label, touches_lost, second);
-            continue;
-        }
-        if (touches_lost) {
+            mine = lost ? NULL : open_blob(b, label);
+            if (!mine) {
+                *place = lose(b, *next, label, lost, second);
+                continue;
+            }
+        } else if (lost) {
             mine->broken = 1;
         }
         *place = mine->parent;
@@ -278,10 +289,10 @@ PEL_I_APART static void join_row(pel_blobs *b, size_t count, const uint8_t *labe
 
     runs[count] = beyond;
     ids[count] = NO_BLOB;
-    b->late = 0;
+    b->losses = b->losses & LOST_HERE ? LOST_ABOVE : 0;
     walk(b, 0, b->runs[b->above], labels, 0);
     close_ended(b);
-    if (b->late) {
+    if (b->losses & LATE) {
         settle(b, count);
         for (size_t i = 0; i < count; i++) {
             if (ids[i] == NO_BLOB) {

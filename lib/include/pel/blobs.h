@@ -265,11 +265,11 @@ typedef struct pel_blobs {
     uint16_t free_slot;
     uint16_t united_slot;
     uint16_t open_count;
-    uint16_t late; /* whether a run found no slot so far */
     uint8_t extra_count;
     uint8_t above;
     uint8_t reach;
     uint8_t state;
+    uint8_t losses;
 } pel_blobs;
 
 /*
