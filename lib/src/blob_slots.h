@@ -62,9 +62,9 @@ pel_status pel_i_blobs_join(pel_blobs *b, uint16_t count, const uint8_t *labels,
 static inline int pel_i_blobs_write(const pel_blobs *b, const pel_blobs_config *c,
                                     const void *memory, size_t bytes)
 {
-    return pel_i_overlap(b, sizeof *b, memory, bytes) ||
-           pel_i_overlap(c->work, c->work_bytes, memory, bytes) ||
-           pel_i_overlap(c->results, c->results_max * sizeof *c->results, memory, bytes);
+    return pel_i_overlap_now(b, sizeof *b, memory, bytes) ||
+           pel_i_overlap_now(c->work, c->work_bytes, memory, bytes) ||
+           pel_i_overlap_now(c->results, c->results_max * sizeof *c->results, memory, bytes);
 }
 
 /* What is wrong with the number of a row, or with where its labels lie. */

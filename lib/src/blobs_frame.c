@@ -107,20 +107,55 @@ static uint16_t find_runs(const pel_blobs *b, const pel_classifier *classifier, 
                                pel_i_blobs_edges(b));
 }
 
-pel_status pel_blobs_pixels(pel_blobs *b, uint16_t y, const pel_classifier *classifier,
-                            const pel_crow *pixels, uint8_t *labels)
+/* Whether nothing is wrong with a row of the usual kind, packed YCbCr for boxes: a few comparisons
+ * where the checks of all kinds take hundreds of instructions. They judge what is not accepted
+ * here. */
+static inline int accept_at_once(const pel_blobs *b, uint16_t y, const pel_classifier *classifier,
+                                 const pel_crow *pixels, const uint8_t *labels)
+{
+#if defined(__OPTIMIZE_SIZE__)
+    (void)b;
+    (void)y;
+    (void)classifier;
+    (void)pixels;
+    (void)labels;
+    return 0;
+#else
+    return b && classifier && pixels && labels && classifier->boxes && pixels->plane[0] &&
+           pixels->format >= PEL_YUYV && pixels->format <= PEL_VYUY &&
+           pixels->width == b->config.width && pixels->width % 2 == 0 &&
+           pixels->range == classifier->range && (unsigned)pixels->range <= PEL_RANGE_LIMITED &&
+           !pel_i_overlap_now(pixels->plane[0], 2 * (size_t)pixels->width, labels, pixels->width) &&
+           pel_i_blobs_check_row(b, y, labels) == PEL_OK;
+#endif
+}
+
+/* What is wrong with a row of any kind. */
+PEL_I_APART static pel_status check_pixels(const pel_blobs *b, uint16_t y,
+                                           const pel_classifier *classifier, const pel_crow *pixels,
+                                           uint8_t *labels)
 {
     pel_status status = b ? pel_i_classify_check(classifier, pixels, labels) : PEL_ERR_ARG;
-    pel_crow row;
 
     if (status == PEL_OK) {
         status = pel_i_blobs_check_row(b, y, labels);
     }
-    if (status != PEL_OK) {
-        return status;
+    if (status == PEL_OK && pel_color_width(pixels->format, pixels->width) != b->config.width) {
+        status = PEL_ERR_FORMAT;
     }
-    if (pel_color_width(pixels->format, pixels->width) != b->config.width) {
-        return PEL_ERR_FORMAT;
+    return status;
+}
+
+pel_status pel_blobs_pixels(pel_blobs *b, uint16_t y, const pel_classifier *classifier,
+                            const pel_crow *pixels, uint8_t *labels)
+{
+    pel_crow row;
+
+    if (!accept_at_once(b, y, classifier, pixels, labels)) {
+        const pel_status status = check_pixels(b, y, classifier, pixels, labels);
+        if (status != PEL_OK) {
+            return status;
+        }
     }
     row = *pixels;
     return pel_i_blobs_join(b, find_runs(b, classifier, &row, labels), labels, &row);

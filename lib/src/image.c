@@ -45,9 +45,10 @@ const char *pel_format_name(pel_format format)
 
 /* ---- Sizes --------------------------------------------------------------------------------- */
 
+/* Groups are of 1 or 2. */
 static int side_fits(uint16_t side, unsigned group)
 {
-    return side % group == 0;
+    return (side & (group - 1)) == 0;
 }
 
 static uint32_t row_bytes(const pel_format_info *info, uint16_t width)

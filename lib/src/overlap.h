@@ -8,6 +8,17 @@
 /* Whether two stretches of memory share a byte; an empty one shares none. */
 int pel_i_overlap(const void *a, size_t a_bytes, const void *b, size_t b_bytes);
 
+/* The same, where it is asked for every row: without a call, if not compiled for size. */
+static inline int pel_i_overlap_now(const void *a, size_t a_bytes, const void *b, size_t b_bytes)
+{
+#if defined(__OPTIMIZE_SIZE__)
+    return pel_i_overlap(a, a_bytes, b, b_bytes);
+#else
+    const uintptr_t a0 = (uintptr_t)a, b0 = (uintptr_t)b;
+    return a_bytes > 0 && b_bytes > 0 && (b0 - a0 < a_bytes || a0 - b0 < b_bytes);
+#endif
+}
+
 /*
  * Whether memory can hold elements of 2, 4 or 8 bytes. How they are aligned is up to the machine:
  * often to their size, but on AVR to nothing, and there an array of uint64_t may lie anywhere.
