@@ -36,8 +36,8 @@ typedef struct pel_blob_slot slot;
 #define END 0xFFFFu
 
 /* Bits of pel_blobs.losses: a run of this row found no slot so far; runs of this row were lost; of
- * the row above. */
-enum { LATE = 1, LOST_HERE = 2, LOST_ABOVE = 4 };
+ * the row above; this is the second walk over the row. */
+enum { LATE = 1, LOST_HERE = 2, LOST_ABOVE = 4, SECOND = 8 };
 
 /* The run behind the last of a row, BEYOND - 1 .. BEYOND: every search stops there. One more still
  * fits an int of 16 bits, and Thumb-2 compares with it at once. */

@@ -18,6 +18,13 @@
  * describe_extras. So a program that measures nothing else carries no code for it.
  */
 
+/* What a noisy picture does for many runs stays in the walk, but where size and stack count. */
+#if defined(__OPTIMIZE_SIZE__)
+#define APART_IF_SMALL PEL_I_APART
+#else
+#define APART_IF_SMALL
+#endif
+
 /* ---- Slots --------------------------------------------------------------------------------- */
 
 static inline unsigned find_root(slot *slots, unsigned id)
@@ -103,21 +110,29 @@ PEL_I_APART static int touches_lost(const pel_run *above, const uint16_t *id, in
     return 0;
 }
 
-/* A run has no slot, or touches one above that was lost, and is so itself. On the first walk over a
- * row it may get a slot later; on the second it is lost. What stands for its blob is returned. */
-PEL_I_APART static uint16_t lose(pel_blobs *b, pel_run run, unsigned label, int by_touch,
-                                 int second)
+/* A run without a blob above opens one. It is lost if it touches one that was lost, and if there is
+ * no slot; but on the first walk over a row it may get one later. Without a slot it answers NULL
+ * and *place is what stands for its blob. */
+APART_IF_SMALL static slot *open_or_lose(pel_blobs *b, const pel_run *run, unsigned label, int lost,
+                                         uint16_t *place)
 {
-    if (!by_touch && !second) {
-        b->losses = (uint8_t)(b->losses | LATE);
-        return NO_BLOB;
+    slot *const opened = lost ? NULL : open_blob(b, label);
+
+    if (opened) {
+        return opened;
     }
-    if (!by_touch) {
+    if (!lost && !(b->losses & SECOND)) {
+        b->losses = (uint8_t)(b->losses | LATE);
+        *place = NO_BLOB;
+        return NULL;
+    }
+    if (!lost) {
         b->counts.lost_opens++;
     }
     b->losses = (uint8_t)(b->losses | LOST_HERE);
-    b->counts.lost_px += (uint32_t)(run.x1 - run.x0);
-    return (uint16_t)(LOST + label - 1);
+    b->counts.lost_px += (uint32_t)(run->x1 - run->x0);
+    *place = (uint16_t)(LOST + label - 1);
+    return NULL;
 }
 
 /* ---- Blobs gather the pixels of the row ---------------------------------------------------- */
@@ -216,7 +231,7 @@ PEL_I_APART static void close_ended(pel_blobs *b)
  * run of either row is behind its end and touches nothing.
  */
 PEL_I_APART static void walk(pel_blobs *b, size_t first, const pel_run *above,
-                             const uint8_t *labels, int second)
+                             const uint8_t *labels)
 {
     const pel_run *next = b->runs[1 - b->above] + first;
     uint16_t *place = b->ids[1 - b->above] + first;
@@ -249,9 +264,8 @@ PEL_I_APART static void walk(pel_blobs *b, size_t first, const pel_run *above,
         }
         lost = lossy && touches_lost(above, id_above, to, label);
         if (!mine) {
-            mine = lost ? NULL : open_blob(b, label);
+            mine = open_or_lose(b, next, label, lost, place);
             if (!mine) {
-                *place = lose(b, *next, label, lost, second);
                 continue;
             }
         } else if (lost) {
@@ -290,15 +304,16 @@ PEL_I_APART static void join_row(pel_blobs *b, size_t count, const uint8_t *labe
     runs[count] = beyond;
     ids[count] = NO_BLOB;
     b->losses = b->losses & LOST_HERE ? LOST_ABOVE : 0;
-    walk(b, 0, b->runs[b->above], labels, 0);
+    walk(b, 0, b->runs[b->above], labels);
     close_ended(b);
     if (b->losses & LATE) {
         settle(b, count);
+        b->losses = (uint8_t)(b->losses | SECOND);
         for (size_t i = 0; i < count; i++) {
             if (ids[i] == NO_BLOB) {
                 const pel_run next = runs[i + 1];
                 runs[i + 1] = beyond;
-                walk(b, i, &runs[i + 1], labels, 1);
+                walk(b, i, &runs[i + 1], labels);
                 runs[i + 1] = next;
             }
         }
