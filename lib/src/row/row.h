@@ -15,8 +15,9 @@
 
 /*
  * A row of pixels in which neighbours x = 2k and 2k+1 share a U and a V: pixel x has its Y at
- * y[x * y_step], its U at u[x / 2 * c_step], its V at v[x / 2 * c_step]. All YCbCr formats, packed
- * or planar, are this with different steps; gray is this with c_step 0.
+ * y[x * y_step], its U at u[x / 2 * c_step], its V at v[x / 2 * c_step]. All YCbCr formats are this
+ * with different steps. y_step 2 is for packed pairs: four bytes, every other one a Y, the rest U
+ * and V in any order, c_step 4. y_step 1 is for planes; gray is this with c_step 0.
  */
 typedef struct pel_row_pairs {
     const uint8_t *y, *u, *v;

@@ -8,8 +8,9 @@
  */
 #include "row/row_filter_mve.h"
 
-#if PEL_ROW_MVE
 #include "row/row_filter_mve_lanes.h"
+
+#if PEL_ROW_MVE
 
 #define INLINE __attribute__((always_inline)) static inline
 

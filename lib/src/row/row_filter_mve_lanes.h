@@ -2,9 +2,10 @@
 #ifndef PEL_ROW_FILTER_MVE_LANES_H
 #define PEL_ROW_FILTER_MVE_LANES_H
 
-#include <arm_mve.h>
-
 #include "row/row_filter_mve.h"
+
+#if PEL_ROW_MVE
+#include <arm_mve.h>
 
 enum { WORDS = 8, BYTES = 16 };
 
@@ -32,5 +33,7 @@ static inline window window_at(const uint8_t *const rows[], unsigned radius, uns
     }
     return w;
 }
+
+#endif
 
 #endif

@@ -4,9 +4,10 @@
  */
 #include "row/row_filter_mve.h"
 
+#include "row/row_filter_mve_lanes.h"
+
 #if PEL_ROW_MVE
 #include "row/row_filter_dsp.h"
-#include "row/row_filter_mve_lanes.h"
 #include "row/row_filter_narrow.h"
 
 #define INLINE __attribute__((always_inline)) static inline

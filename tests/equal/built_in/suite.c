@@ -124,7 +124,7 @@ static void visit(void (*compare)(uint16_t width, unsigned offset))
 
 /* ---- From pixels to runs ------------------------------------------------------------------- */
 
-/* The four orders of packed 4:2:2, both of NV12, I420, gray, and pairs that are none of these. */
+/* The four orders of packed 4:2:2, both of NV12, I420, gray, and planes that are none of these. */
 enum { LAYOUTS = 9 };
 
 static pel_row_pairs pairs_of(unsigned layout, unsigned offset)
@@ -133,7 +133,7 @@ static pel_row_pairs pairs_of(unsigned layout, unsigned offset)
     const pel_row_pairs all[LAYOUTS] = {
         {a, a + 1, a + 3, 2, 4}, {a, a + 3, a + 1, 2, 4}, {a + 1, a, a + 2, 2, 4},
         {a + 1, a + 2, a, 2, 4}, {a, b, b + 1, 1, 2},     {a, b + 1, b, 1, 2},
-        {a, b, bytes[2], 1, 1},  {a, b, b, 1, 0},         {a, b + 1, bytes[2], 2, 4},
+        {a, b, bytes[2], 1, 1},  {a, b, b, 1, 0},         {a, b + 1, bytes[2], 1, 4},
     };
     return all[layout];
 }
