@@ -121,8 +121,10 @@ static inline int accept_at_once(const pel_blobs *b, uint16_t y, const pel_class
     (void)labels;
     return 0;
 #else
-    return b && classifier && pixels && labels && classifier->boxes && pixels->plane[0] &&
-           pixels->format >= PEL_YUYV && pixels->format <= PEL_VYUY &&
+    const pel_format_info *const info = pixels ? pel_i_format(pixels->format) : NULL;
+
+    return b && classifier && info && labels && classifier->boxes && pixels->plane[0] &&
+           info->layout == PEL_LAYOUT_PAIRS && info->pair_bytes == 4 &&
            pixels->width == b->config.width && pixels->width % 2 == 0 &&
            pixels->range == classifier->range && (unsigned)pixels->range <= PEL_RANGE_LIMITED &&
            !pel_i_overlap_now(pixels->plane[0], 2 * (size_t)pixels->width, labels, pixels->width) &&
