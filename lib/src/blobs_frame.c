@@ -4,7 +4,6 @@
 #include "format.h"
 #include "overlap.h"
 #include "pel/blobs.h"
-#include "row/row_select.h"
 
 uint32_t pel_blobs_bytes(uint16_t width, uint16_t open_max, unsigned measure)
 {
@@ -78,21 +77,27 @@ static void free_all_slots(pel_blobs *b)
 
 pel_status pel_blobs_begin(pel_blobs *b, const pel_blobs_config *config)
 {
-    const pel_blobs zero = {0};
+    const pel_blobs_counts nothing = {0};
     const pel_run beyond = {BEYOND - 1, BEYOND};
     const pel_status status = b && config ? check_config(b, config) : PEL_ERR_ARG;
 
     if (status != PEL_OK) {
         return status;
     }
-    *b = zero;
     b->config = *config;
+    b->counts = nothing;
     b->config.backend = pel_i_row_backend(config->backend);
     b->reach = config->connectivity == 4 ? 0 : 1;
     lay_out(b);
     free_all_slots(b);
     b->runs[0][0] = beyond;
     b->ids[0][0] = NO_BLOB;
+    b->labels = NULL;
+    b->results_count = 0;
+    b->next_row = 0;
+    b->open_count = 0;
+    b->above = 0;
+    b->losses = 0;
     b->state = STATE_ROWS;
     return PEL_OK;
 }
@@ -107,11 +112,11 @@ static uint16_t find_runs(const pel_blobs *b, const pel_classifier *classifier, 
                                pel_i_blobs_edges(b));
 }
 
-/* Whether nothing is wrong with a row of the usual kind, packed YCbCr for boxes: a few comparisons
- * where the checks of all kinds take hundreds of instructions. They judge what is not accepted
- * here. */
-static inline int accept_at_once(const pel_blobs *b, uint16_t y, const pel_classifier *classifier,
-                                 const pel_crow *pixels, const uint8_t *labels)
+/* Packed YCbCr for boxes, row after row with the same labels: what most cameras send is accepted by
+ * a few comparisons where the checks of all kinds of rows take hundreds of instructions. They judge
+ * what is not accepted here, and everything where code is to be small. */
+static inline int is_usual(const pel_blobs *b, uint16_t y, const pel_classifier *classifier,
+                           const pel_crow *pixels, const uint8_t *labels)
 {
 #if defined(__OPTIMIZE_SIZE__)
     (void)b;
@@ -122,20 +127,24 @@ static inline int accept_at_once(const pel_blobs *b, uint16_t y, const pel_class
     return 0;
 #else
     const pel_format_info *const info = pixels ? pel_i_format(pixels->format) : NULL;
+    uint16_t width;
 
-    return b && classifier && info && labels && classifier->boxes && pixels->plane[0] &&
-           info->layout == PEL_LAYOUT_PAIRS && info->pair_bytes == 4 &&
-           pixels->width == b->config.width && pixels->width % 2 == 0 &&
-           pixels->range == classifier->range && (unsigned)pixels->range <= PEL_RANGE_LIMITED &&
-           !pel_i_overlap_now(pixels->plane[0], 2 * (size_t)pixels->width, labels, pixels->width) &&
-           pel_i_blobs_check_row(b, y, labels) == PEL_OK;
+    if (!b || !classifier || !info || !labels || labels != b->labels || b->state != STATE_ROWS ||
+        y != b->next_row || y >= b->config.height) {
+        return 0;
+    }
+    width = b->config.width;
+    return classifier->boxes && !classifier->relabel && pixels->plane[0] &&
+           info->layout == PEL_LAYOUT_PAIRS && info->pair_bytes == 4 && pixels->width == width &&
+           width % 2 == 0 && pixels->range == classifier->range &&
+           (unsigned)pixels->range <= PEL_RANGE_LIMITED &&
+           !pel_i_overlap_now(pixels->plane[0], 2 * (size_t)width, labels, width);
 #endif
 }
 
 /* What is wrong with a row of any kind. */
-PEL_I_APART static pel_status check_pixels(const pel_blobs *b, uint16_t y,
-                                           const pel_classifier *classifier, const pel_crow *pixels,
-                                           uint8_t *labels)
+static pel_status check_pixels(const pel_blobs *b, uint16_t y, const pel_classifier *classifier,
+                               const pel_crow *pixels, uint8_t *labels)
 {
     pel_status status = b ? pel_i_classify_check(classifier, pixels, labels) : PEL_ERR_ARG;
 
@@ -148,19 +157,31 @@ PEL_I_APART static pel_status check_pixels(const pel_blobs *b, uint16_t y,
     return status;
 }
 
+/* A row of any kind. */
+PEL_I_APART static pel_status add_pixels(pel_blobs *b, uint16_t y, const pel_classifier *classifier,
+                                         const pel_crow *pixels, uint8_t *labels)
+{
+    const pel_status status = check_pixels(b, y, classifier, pixels, labels);
+    pel_crow row;
+
+    if (status != PEL_OK) {
+        return status;
+    }
+    b->labels = labels;
+    row = *pixels;
+    return pel_i_blobs_join(b, find_runs(b, classifier, &row, labels), labels, &row);
+}
+
 pel_status pel_blobs_pixels(pel_blobs *b, uint16_t y, const pel_classifier *classifier,
                             const pel_crow *pixels, uint8_t *labels)
 {
-    pel_crow row;
-
-    if (!accept_at_once(b, y, classifier, pixels, labels)) {
-        const pel_status status = check_pixels(b, y, classifier, pixels, labels);
-        if (status != PEL_OK) {
-            return status;
-        }
+    if (is_usual(b, y, classifier, pixels, labels)) {
+        const pel_row_pairs pairs = pel_i_packed_pairs(pel_i_format_of(pixels), pixels->plane[0]);
+        const uint16_t count =
+            pel_i_box_runs(classifier, &pairs, b->config.width, labels, pel_i_blobs_edges(b));
+        return pel_i_blobs_join(b, count, labels, pixels);
     }
-    row = *pixels;
-    return pel_i_blobs_join(b, find_runs(b, classifier, &row, labels), labels, &row);
+    return add_pixels(b, y, classifier, pixels, labels);
 }
 
 /* What pel_blobs_frame refuses beyond what begin does. Apart, so that its stack is not there while

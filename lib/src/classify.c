@@ -2,7 +2,6 @@
 
 #include "classifier.h"
 #include "format.h"
-#include "row/row_select_runs.h"
 
 /* ---- Boxes and tables ---------------------------------------------------------------------- */
 
@@ -62,17 +61,11 @@ static pel_status check_classifier(const pel_classifier *classifier)
 
 /* ---- Rows ---------------------------------------------------------------------------------- */
 
-static pel_row_boxes row_boxes(const pel_classifier *classifier)
-{
-    const pel_row_boxes boxes = {classifier->boxes->y, classifier->boxes->u, classifier->boxes->v};
-    return boxes;
-}
-
 static void classify_yuv(const pel_classifier *classifier, const uint8_t *y, const uint8_t *u,
                          const uint8_t *v, uint16_t count, uint8_t *labels)
 {
     if (classifier->boxes) {
-        const pel_row_boxes boxes = row_boxes(classifier);
+        const pel_row_boxes boxes = pel_i_row_boxes(classifier);
         pel_row_classify(&boxes, y, u, v, count, labels);
     } else {
         const pel_row_lut lut = row_lut(&classifier->lut);
@@ -97,7 +90,7 @@ void pel_classify_pieces(const pel_classifier *classifier, const pel_crow *row, 
 /* Boxes need no reader where the row is YCbCr. */
 static int works_in_place(const pel_classifier *classifier, const pel_crow *row)
 {
-    return classifier->boxes && pel_i_format(row->format)->layout == PEL_LAYOUT_PAIRS;
+    return classifier->boxes && pel_i_format_of(row)->layout == PEL_LAYOUT_PAIRS;
 }
 
 pel_status pel_i_classify_check(const pel_classifier *classifier, const pel_crow *row,
@@ -126,8 +119,8 @@ static void classify_in_place(const pel_classifier *classifier, const pel_crow *
                               uint8_t *labels)
 {
     const pel_classify_plan *const plan = classifier->plan;
-    const pel_row_boxes boxes = row_boxes(classifier);
-    const pel_row_pairs pairs = pel_i_pairs(pel_i_format(row->format), row);
+    const pel_row_boxes boxes = pel_i_row_boxes(classifier);
+    const pel_row_pairs pairs = pel_i_pairs(pel_i_format_of(row), row);
 
     pel_i_row_classify_pairs(plan ? plan->backend : PEL_ROW_BUILT_IN, plan ? plan->nibbles : NULL,
                              &boxes, &pairs, width, labels);
@@ -167,12 +160,8 @@ uint16_t pel_i_classify_runs(const pel_classifier *classifier, const pel_crow *r
                              pel_backend backend, uint8_t *labels, uint16_t *edges)
 {
     if (AT_ONCE && works_in_place(classifier, row) && !classifier->relabel) {
-        const pel_classify_plan *const plan = classifier->plan;
-        const pel_row_boxes boxes = row_boxes(classifier);
-        const pel_row_pairs pairs = pel_i_pairs(pel_i_format(row->format), row);
-        return pel_i_row_classify_runs(plan ? plan->backend : PEL_ROW_BUILT_IN,
-                                       plan ? plan->nibbles : NULL, &boxes, &pairs, width, labels,
-                                       edges);
+        const pel_row_pairs pairs = pel_i_pairs(pel_i_format_of(row), row);
+        return pel_i_box_runs(classifier, &pairs, width, labels, edges);
     }
     classify(classifier, row, width, labels);
     return pel_i_row_find_runs(backend, labels, width, edges);

@@ -28,11 +28,30 @@ typedef struct pel_format_info {
     unsigned u_plane : 2, u_offset : 2, v_plane : 2, v_offset : 2, c_step : 3;
 } pel_format_info;
 
+extern const pel_format_info pel_i_formats[PEL_FORMAT_COUNT];
+
 /* The line of the table, NULL for a value that is no format. */
-const pel_format_info *pel_i_format(pel_format format);
+static inline const pel_format_info *pel_i_format(pel_format format)
+{
+    return (unsigned)format < PEL_FORMAT_COUNT ? &pel_i_formats[(unsigned)format] : NULL;
+}
+
+/* The same for a row that was checked. */
+static inline const pel_format_info *pel_i_format_of(const pel_crow *row)
+{
+    return &pel_i_formats[(unsigned)row->format];
+}
 
 /* A row of layout PAIRS as the kernels want it. */
 pel_row_pairs pel_i_pairs(const pel_format_info *info, const pel_crow *row);
+
+/* The same, where it is known that two pixels lie in four bytes. */
+static inline pel_row_pairs pel_i_packed_pairs(const pel_format_info *info, const uint8_t *bytes)
+{
+    const pel_row_pairs pairs = {bytes + info->y_offset, bytes + info->u_offset,
+                                 bytes + info->v_offset, 2, 4};
+    return pairs;
+}
 
 /* Whether the bytes of a row, or of a view and what lies between its rows, overlap some memory. */
 int pel_i_crow_overlaps(const pel_crow *row, const void *memory, size_t bytes);

@@ -6,7 +6,7 @@
  *    layout, bytes of a pair, planes, groups, order,
  *    Y offset and step, U and V plane and offset, their step
  */
-static const pel_format_info formats[PEL_FORMAT_COUNT] = {
+const pel_format_info pel_i_formats[PEL_FORMAT_COUNT] = {
     {PEL_LAYOUT_PAIRS, 2, 1, 1, 1, 0, 0, 1, 0, 0, 0, 0, 0},  /* GRAY8 */
     {PEL_LAYOUT_PAIRS, 4, 1, 2, 1, 0, 0, 2, 0, 1, 0, 3, 4},  /* YUYV */
     {PEL_LAYOUT_PAIRS, 4, 1, 2, 1, 0, 1, 2, 0, 0, 0, 2, 4},  /* UYVY */
@@ -32,11 +32,6 @@ static const char names[PEL_FORMAT_COUNT][12] = {
 
 /* Gray has this U and V everywhere. */
 static const uint8_t neutral_chroma = 128;
-
-const pel_format_info *pel_i_format(pel_format format)
-{
-    return (unsigned)format < PEL_FORMAT_COUNT ? &formats[(unsigned)format] : NULL;
-}
 
 const char *pel_format_name(pel_format format)
 {

@@ -46,19 +46,18 @@ typedef void rgb_reader(const pel_crow *row, uint16_t x, uint16_t count, uint8_t
 
 static void rgb_of_rgb24(const pel_crow *row, uint16_t x, uint16_t count, uint8_t *rgb)
 {
-    pel_row_read_rgb24(row->plane[0] + 3 * (size_t)x, count, pel_i_format(row->format)->order, rgb);
+    pel_row_read_rgb24(row->plane[0] + 3 * (size_t)x, count, pel_i_format_of(row)->order, rgb);
 }
 
 static void rgb_of_rgb565(const pel_crow *row, uint16_t x, uint16_t count, uint8_t *rgb)
 {
-    pel_row_read_rgb565(row->plane[0] + 2 * (size_t)x, count, pel_i_format(row->format)->order,
-                        rgb);
+    pel_row_read_rgb565(row->plane[0] + 2 * (size_t)x, count, pel_i_format_of(row)->order, rgb);
 }
 
 static void rgb_of_bayer(const pel_crow *row, uint16_t x, uint16_t count, uint8_t *rgb)
 {
     pel_row_read_bayer(row->plane[0] + 2 * (size_t)x, row->plane[1] + 2 * (size_t)x, count,
-                       pel_i_format(row->format)->order, rgb);
+                       pel_i_format_of(row)->order, rgb);
 }
 
 static rgb_reader *rgb_reader_of(unsigned layout)
@@ -86,7 +85,7 @@ static void convert(const pel_crow *row, uint16_t x, uint16_t count, rgb_reader 
 static pel_status copy_pairs(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
                              planes to)
 {
-    const pel_row_pairs pairs = pel_i_pairs(pel_i_format(row->format), row);
+    const pel_row_pairs pairs = pel_i_pairs(pel_i_format_of(row), row);
 
     if (row->range != range) {
         return PEL_ERR_FORMAT;
@@ -102,8 +101,7 @@ static pel_status check_layout(const pel_crow *row, uint16_t x, uint16_t count, 
 {
     const pel_status status = check_yuv(row, x, count, range, to);
 
-    return status == PEL_OK && pel_i_format(row->format)->layout != layout ? PEL_ERR_FORMAT
-                                                                           : status;
+    return status == PEL_OK && pel_i_format_of(row)->layout != layout ? PEL_ERR_FORMAT : status;
 }
 
 pel_status pel_crow_read_rgb24(const pel_crow *row, uint16_t x, uint16_t count, pel_range range,
@@ -161,7 +159,7 @@ pel_status pel_crow_read_yuv(const pel_crow *row, uint16_t x, uint16_t count, pe
     if (status != PEL_OK) {
         return status;
     }
-    layout = pel_i_format(row->format)->layout;
+    layout = pel_i_format_of(row)->layout;
     if (layout == PEL_LAYOUT_PAIRS) {
         return copy_pairs(row, x, count, range, to);
     }
@@ -196,7 +194,7 @@ pel_status pel_crow_read_rgb(const pel_crow *row, uint16_t x, uint16_t count, ui
     if (pel_i_crow_overlaps(row, rgb, 3 * (size_t)count)) {
         return PEL_ERR_ARG;
     }
-    info = pel_i_format(row->format);
+    info = pel_i_format_of(row);
     if (info->layout == PEL_LAYOUT_PAIRS) {
         const pel_row_pairs pairs = pel_i_pairs(info, row);
         convert_pairs(&pairs, x, count, row->range == PEL_RANGE_LIMITED, rgb);

@@ -251,15 +251,16 @@ typedef struct pel_blobs_counts {
     uint16_t open_peak;  /* the most blobs that were open at once: what open_max needs to be */
 } pel_blobs_counts;
 
-/* The finder. The caller places it (132 bytes on 32-bit machines), zeroes it unless pel_blobs_begin
+/* The finder. The caller places it (136 bytes on 32-bit machines), zeroes it unless pel_blobs_begin
  * is the first to see it, and reads `counts`; the rest is private. */
 typedef struct pel_blobs {
     pel_blobs_config config;
     pel_blobs_counts counts;
     struct pel_blob_slot *slots;
-    uint64_t *extras; /* what is measured beyond the basics, extra_count for each slot */
-    pel_run *runs[2]; /* of the row above and of this row, changing places */
-    uint16_t *ids[2]; /* the blob of each run */
+    uint64_t *extras;      /* what is measured beyond the basics, extra_count for each slot */
+    pel_run *runs[2];      /* of the row above and of this row, changing places */
+    uint16_t *ids[2];      /* the blob of each run */
+    const uint8_t *labels; /* of the row before: they lie where the finder does not write */
     uint32_t results_count;
     uint16_t next_row;
     uint16_t free_slot;
