@@ -2,25 +2,23 @@
  * The chain that the benchmark measures: rows of YUYV are classified and joined to blobs, which are
  * filtered (20 pixels or more) and sorted, 4-connected, with memory with which nothing can be lost.
  *
- *   bench_chain LEVEL INPUT          one chain to warm up, then one inside measured_chain(), where
+ *   bench_chain BACKEND LEVEL INPUT  one chain to warm up, then one inside measured_chain(), where
  *                                    callgrind counts; prints what came out
  *   bench_chain --count INPUT        runs and regions of every size
- *   bench_chain --time LEVEL INPUT   nanoseconds per pixel, median of 200 chains, and the ratio to
- *                                    copying the frame
  *
- * LEVEL is `basic` (area, box, sums of x and y) or `all` (also second moments, perimeter, holes).
+ * BACKEND is `scalar` or another name that backend.h knows; status 77 where there is no such one
+ * here. LEVEL is `basic` (area, box, sums of x and y) or `all` (also second moments, perimeter,
+ * holes).
  */
 #include "benchinput.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-enum { WIDTH = 640, HEIGHT = 480, MIN_AREA = 20, REPEATS = 200, RESULTS_MAX = 32768 };
+enum { WIDTH = 640, HEIGHT = 480, MIN_AREA = 20, RESULTS_MAX = 32768, NOT_HERE = 77 };
 
 static uint8_t frame[BENCH_FRAME_BYTES_MAX];
-static uint8_t frame_copy[BENCH_FRAME_BYTES_MAX];
 static uint8_t labels[WIDTH];
 static uint64_t work[PEL_BLOBS_WORDS(WIDTH, PEL_BLOBS_OPEN_SAFE(WIDTH), PEL_MEASURE_ALL)];
 static pel_blob results[RESULTS_MAX];
@@ -29,6 +27,7 @@ static pel_run runs[PEL_RUNS_MAX(WIDTH)];
 /* All that a chain needs. The pointers inside refer to this object: it stays in its place. */
 typedef struct chain {
     pel_boxes boxes;
+    pel_classify_plan plan;
     pel_classifier classifier;
     pel_cview view;
     pel_blob_filter filter;
@@ -46,7 +45,7 @@ static void fail(const char *what)
     exit(1);
 }
 
-static void chain_init(chain *c, const char *input, unsigned measure)
+static void chain_init(chain *c, const char *input, pel_backend backend, unsigned measure)
 {
     if (bench_frame(input, WIDTH, HEIGHT, frame) != 0) {
         fail("no such input");
@@ -54,6 +53,13 @@ static void chain_init(chain *c, const char *input, unsigned measure)
     memset(c, 0, sizeof *c);
     bench_boxes(input, &c->boxes);
     c->classifier.boxes = &c->boxes;
+    if (backend != PEL_BACKEND_SCALAR) {
+        if (pel_classify_plan_make(&c->plan, &c->boxes, backend) != PEL_OK) {
+            fail("the backend was refused");
+        }
+        c->classifier.plan = &c->plan;
+    }
+    c->config.backend = backend;
     c->classifier.range = PEL_RANGE_FULL;
     if (pel_cview_init(frame, PEL_YUYV, PEL_RANGE_FULL, WIDTH, HEIGHT, 0, &c->view) != PEL_OK) {
         fail("the view was refused");
@@ -152,66 +158,37 @@ static void print_counts(chain *c)
     printf("regions8 %lu\n", (unsigned long)c->count);
 }
 
-/* ---- Time ---------------------------------------------------------------------------------- */
+/* ---- Options ------------------------------------------------------------------------------- */
 
-static double now_ns(void)
+/* PEL_BACKEND_COUNT for a name that is none. */
+static pel_backend backend_of(const char *name)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
-}
-
-static int compare_doubles(const void *a, const void *b)
-{
-    double x;
-    double y;
-    memcpy(&x, a, sizeof x);
-    memcpy(&y, b, sizeof y);
-    return (x > y) - (x < y);
-}
-
-static double median(double *values)
-{
-    qsort(values, REPEATS, sizeof values[0], compare_doubles);
-    return (values[REPEATS / 2 - 1] + values[REPEATS / 2]) / 2.0;
-}
-
-static void print_time(chain *c)
-{
-    static double chain_ns[REPEATS];
-    static double copy_ns[REPEATS];
-    run_or_fail(c);
-    for (int i = 0; i < REPEATS; i++) {
-        const double start = now_ns();
-        run_or_fail(c);
-        const double middle = now_ns();
-        memcpy(frame_copy, frame, sizeof frame);
-        /* Writing through a volatile keeps the compiler from leaving the copy out. */
-        ((volatile uint8_t *)frame)[0] = frame_copy[0];
-        copy_ns[i] = now_ns() - middle;
-        chain_ns[i] = middle - start;
+    unsigned backend = PEL_BACKEND_SCALAR;
+    while (backend < PEL_BACKEND_COUNT &&
+           strcmp(name, pel_backend_name((pel_backend)backend)) != 0) {
+        backend++;
     }
-    const double chain_median = median(chain_ns);
-    printf("ns_per_px %.3f\n", chain_median / (WIDTH * HEIGHT));
-    printf("memcpy_ratio %.1f\n", chain_median / median(copy_ns));
+    return (pel_backend)backend;
 }
 
 int main(int argc, char **argv)
 {
     static chain c;
     const int is_count = argc == 3 && strcmp(argv[1], "--count") == 0;
-    const int is_time = argc == 4 && strcmp(argv[1], "--time") == 0;
-    const int measure = is_count ? 0 : argc >= 3 ? measure_of(argv[argc - 2]) : -1;
-    if (measure < 0 || argc != (is_time ? 4 : 3)) {
-        fprintf(stderr, "usage: bench_chain [--time] basic|all INPUT\n"
+    const pel_backend backend = argc == 4 ? backend_of(argv[1]) : PEL_BACKEND_SCALAR;
+    const int measure = is_count ? 0 : argc == 4 ? measure_of(argv[2]) : -1;
+    if (measure < 0 || backend == PEL_BACKEND_COUNT) {
+        fprintf(stderr, "usage: bench_chain BACKEND basic|all INPUT\n"
                         "       bench_chain --count INPUT\n");
         return 2;
     }
-    chain_init(&c, argv[argc - 1], (unsigned)measure);
+    if (!pel_backend_available(backend)) {
+        fprintf(stderr, "bench_chain: no %s here\n", argv[1]);
+        return NOT_HERE;
+    }
+    chain_init(&c, argv[argc - 1], backend, (unsigned)measure);
     if (is_count) {
         print_counts(&c);
-    } else if (is_time) {
-        print_time(&c);
     } else {
         print_result(&c);
     }
