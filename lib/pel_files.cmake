@@ -10,6 +10,7 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/row/row_c.c
     ${PEL_LIB_DIR}/src/row/row_classify_c.c
     ${PEL_LIB_DIR}/src/row/row_runs_c.c
+    ${PEL_LIB_DIR}/src/row/row_runs_thumb.c
     ${PEL_LIB_DIR}/src/row/row_ssse3.c
     ${PEL_LIB_DIR}/src/row/row_avx2.c
     ${PEL_LIB_DIR}/src/row/row_avx512.c

@@ -2,7 +2,7 @@
 #ifndef PEL_ROW_MVE_H
 #define PEL_ROW_MVE_H
 
-#include "row/row.h"
+#include "row/row_thumb.h"
 
 /* Not for programs that are to be small: the plain versions stay in for what does not fit vectors.
  */
@@ -24,7 +24,7 @@ uint16_t pel_row_classify_runs_mve(const pel_row_boxes *boxes, const pel_row_pai
 #else
 #define PEL_BEST_CLASSIFY_PAIRS pel_row_classify_pairs
 #define PEL_BEST_FIND_RUNS pel_row_find_runs
-#define PEL_BEST_CLASSIFY_RUNS pel_row_classify_runs
+#define PEL_BEST_CLASSIFY_RUNS PEL_ROW_RUNS_SCALAR
 #endif
 
 #endif

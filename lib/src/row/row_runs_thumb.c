@@ -1,0 +1,251 @@
+/*
+ * From packed pixels to runs in Thumb code, pair by pair as row_runs_c.c does it. In assembly,
+ * because every instruction here is one per pair, and compilers move masks and pointers about
+ * between the states. Elsewhere this file is empty.
+ */
+#include "row/row_thumb.h"
+
+#if PEL_ROW_THUMB
+
+/*
+ * Outside of runs there are three ways to tell background, each with its loop, and the last one
+ * that was right is tried first: half of the chroma, all of it, or luma. Inside, pairs are compared
+ * with the mask of the pixel before.
+ *
+ *     r0   the pair                             r8   the first pair
+ *     r1   masks of Y                           r9   place of the next edge
+ *     r2   masks of the first chroma byte       r10  labels
+ *     r3   masks of the second one              r11  mask of the run
+ *     r4   mask of the left pixel               r12  from here on, fewer than eight pairs are left
+ *     r5   mask of the right pixel              lr   from here on, fewer than four
+ *     r6   mask of the chroma, or a place       [sp] behind the last pair
+ *     r7   scratch; so are r4 to r6 until they are what they are
+ *
+ * The macros take the parts of a pair by their offsets: y, z the left and the right Y, c, d the
+ * first and the second chroma byte.
+ */
+
+/* clang-format off */
+
+/* ---- What Armv6-M says in more instructions ------------------------------------------------ */
+
+#if defined(__thumb2__) && !defined(PEL_ROW_THUMB_V6)
+#define SAVE "push {r4-r11, lr};"
+#define RETURN "pop {r4-r11, pc};"
+#define IF_NOT_0(reg, to) "cbnz " reg ", " to ";"
+#define IF_NOT_0_FAR(to) "bne " to ";"
+#define PLACE(reg) "sub " reg ", r0, r8; lsrs " reg ", " reg ", #1;"
+#define PUT_EDGE(place, scratch) "strh " place ", [r9], #2;"
+#define PUT_LABEL(label, place, scratch) "strb " label ", [r10, " place "];"
+#define LABEL(reg, mask) "rbit " reg ", " mask "; clz " reg ", " reg "; adds " reg ", #1;"
+#else
+#define SAVE "push {r4-r7, lr}; mov r4, r8; mov r5, r9; mov r6, r10; mov r7, r11; push {r4-r7};"
+#define RETURN "pop {r4-r7}; mov r8, r4; mov r9, r5; mov r10, r6; mov r11, r7; pop {r4-r7, pc};"
+#define IF_NOT_0(reg, to) "cmp " reg ", #0; bne " to ";"
+#define IF_NOT_0_FAR(to) "beq 3f; b " to "; 3:"
+#define PLACE(reg) "mov " reg ", r8; subs " reg ", r0, " reg "; lsrs " reg ", " reg ", #1;"
+#define PUT_EDGE(place, scratch) \
+    "mov " scratch ", r9; strh " place ", [" scratch "]; adds " scratch ", #2; mov r9, " scratch ";"
+#define PUT_LABEL(label, place, scratch) \
+    "mov " scratch ", r10; strb " label ", [" scratch ", " place "];"
+/* The mask is lost. */
+#define LABEL(reg, mask) "movs " reg ", #0; 1: adds " reg ", #1; lsrs " mask ", #1; bcc 1b;"
+#endif
+
+/* ---- Masks of bytes ------------------------------------------------------------------------ */
+
+#define MASK(reg, table, at) "ldrb " reg ", [r0, #" at "]; ldrb " reg ", [" table ", " reg "];"
+#define MASKS(reg, table, at, reg2, table2, at2) \
+    "ldrb " reg ", [r0, #" at "]; ldrb " reg2 ", [r0, #" at2 "];" \
+    "ldrb " reg ", [" table ", " reg "]; ldrb " reg2 ", [" table2 ", " reg2 "];"
+#define HALF(at) MASK("r4", "r3", at)
+#define OTHER_HALF(at) MASK("r6", "r2", at) "ands r6, r4;"
+#define CHROMA(c, d) MASKS("r6", "r2", c, "r7", "r3", d) "ands r6, r7;"
+#define LUMA(y, z) MASKS("r4", "r1", y, "r5", "r1", z)
+
+/* ---- States -------------------------------------------------------------------------------- */
+
+#define ENTER \
+    ".syntax unified;" SAVE "mov r10, r1; mov r9, r2; ldr r4, [r0, #4]; push {r4};" \
+    "subs r4, #12; mov lr, r4; subs r4, #16; mov r12, r4;" \
+    "ldr r1, [r0, #8]; ldr r2, [r0, #12]; ldr r3, [r0, #16]; ldr r0, [r0]; mov r8, r0;"
+
+/* 10: outside, by half of the chroma. Where it does not tell for four neighbours, on to 20. */
+#define OUTSIDE_BY_HALF(c, d) \
+    "10: cmp r0, r12; bhs 100f;" \
+    "11:" HALF(d "+0") IF_NOT_0("r4", "101f") \
+    "12:" HALF(d "+4") IF_NOT_0("r4", "102f") \
+    "13:" HALF(d "+8") IF_NOT_0("r4", "103f") \
+    "14:" HALF(d "+12") IF_NOT_0("r4", "104f") \
+    "15:" HALF(d "+16") IF_NOT_0("r4", "105f") \
+    "16:" HALF(d "+20") IF_NOT_0("r4", "106f") \
+    "17:" HALF(d "+24") IF_NOT_0("r4", "107f") \
+    "18:" HALF(d "+28") IF_NOT_0("r4", "108f") \
+    "19: adds r0, #32; cmp r0, r12; blo 11b;" \
+    "100: b 50f;" \
+    "101:" OTHER_HALF(c "+0") "beq 109f; b 25f;" \
+    "102:" OTHER_HALF(c "+4") "beq 13b; adds r0, #4; b 25f;" \
+    "103:" OTHER_HALF(c "+8") "beq 14b; adds r0, #8; b 25f;" \
+    "104:" OTHER_HALF(c "+12") "beq 15b; adds r0, #12; b 25f;" \
+    "105:" OTHER_HALF(c "+16") "beq 16b; adds r0, #16; b 25f;" \
+    "106:" OTHER_HALF(c "+20") "beq 17b; adds r0, #20; b 25f;" \
+    "107:" OTHER_HALF(c "+24") "beq 18b; adds r0, #24; b 25f;" \
+    "108:" OTHER_HALF(c "+28") "beq 19b; adds r0, #28; b 25f;" \
+    "109:" HALF(d "+4") "cmp r4, #0; beq 13b;" OTHER_HALF(c "+4") "bne 26f;" \
+    HALF(d "+8") "cmp r4, #0; beq 14b;" OTHER_HALF(c "+8") "bne 27f;" \
+    HALF(d "+12") "cmp r4, #0; beq 15b;" OTHER_HALF(c "+12") "bne 28f;" \
+    "adds r0, #16;"
+
+/* 20: outside, by all of the chroma, for 63 pairs. 25: the chroma is that of a class. */
+#define OUTSIDE_BY_CHROMA(y, z, c, d) \
+    "20: movs r5, #252; adds r5, r0; cmp r5, r12; bls 21f; mov r5, r12;" \
+    "21: cmp r0, r5; bhs 10b;" \
+    "22:" CHROMA(c "+0", d "+0") "bne 25f;" \
+    CHROMA(c "+4", d "+4") "bne 26f;" \
+    CHROMA(c "+8", d "+8") "bne 27f;" \
+    CHROMA(c "+12", d "+12") "bne 28f;" \
+    CHROMA(c "+16", d "+16") "bne 29f;" \
+    CHROMA(c "+20", d "+20") "bne 23f;" \
+    CHROMA(c "+24", d "+24") "bne 24f;" \
+    CHROMA(c "+28", d "+28") "bne 2f;" \
+    "adds r0, #32; cmp r0, r5; blo 22b;" BACK_TO_HALF \
+    "2: adds r0, #4;" \
+    "24: adds r0, #4;" \
+    "23: adds r0, #4;" \
+    "29: adds r0, #4;" \
+    "28: adds r0, #4;" \
+    "27: adds r0, #4;" \
+    "26: adds r0, #4;" \
+    "25:" LUMA(y "+0", z "+0") "ands r5, r6; ands r4, r6; bne 40f; cmp r5, #0; bne 42f;" \
+    "adds r0, #4;"
+#define BACK_TO_HALF "b 10b;"
+
+/* 30: outside, by luma. */
+#define OUTSIDE_BY_LUMA(y, z, c, d) \
+    "30: cmp r0, lr; bhs 50f;" \
+    "31:" LUMA(y "+0", z "+0") "adds r6, r4, r5; bne 35f;" \
+    LUMA(y "+4", z "+4") "adds r6, r4, r5; bne 36f;" \
+    LUMA(y "+8", z "+8") "adds r6, r4, r5; bne 37f;" \
+    LUMA(y "+12", z "+12") "adds r6, r4, r5; bne 38f;" \
+    "adds r0, #16; cmp r0, lr; blo 31b; b 50f;" \
+    "38: adds r0, #4;" \
+    "37: adds r0, #4;" \
+    "36: adds r0, #4;" \
+    "35:" CHROMA(c "+0", d "+0") "beq 39f; ands r5, r6; ands r4, r6; bne 40f;" \
+    "cmp r5, #0; bne 42f; adds r0, #4; b 30b;" \
+    "39: adds r0, #4; b 10b;"
+
+/* 50: outside, one by one to the end. */
+#define OUTSIDE_AT_THE_END(c, d) \
+    "50: ldr r7, [sp];" \
+    "51: cmp r0, r7; bhs 53f;" HALF(d "+0") IF_NOT_0("r4", "54f") \
+    "52: adds r0, #4; b 51b;" \
+    "53: b 99f;" \
+    "54:" OTHER_HALF(c "+0") "beq 52b; b 25b;"
+
+/* 40: a run begins on the left. 41: at r6 in a run the right pixel differs from the left one. If
+ * the run ends, luma is what ended it, as the left one has the same chroma. 42, 43: a run begins on
+ * the right. */
+#define BEGIN \
+    "40:" PLACE("r6") "mov r11, r4;" PUT_EDGE("r6", "r7") \
+    LABEL("r7", "r4") PUT_LABEL("r7", "r6", "r4") "cmp r5, r11; beq 60f;" \
+    "41: adds r6, #1; cmp r5, #0; bne 44f;" PUT_EDGE("r6", "r7") "adds r0, #4; b 30b;" \
+    "44: mov r11, r5;" MEET("r5") "b 60f;" \
+    "42:" PLACE("r6") "adds r6, #1;" \
+    "43: mov r11, r5;" PUT_EDGE("r6", "r7") \
+    LABEL("r7", "r5") PUT_LABEL("r7", "r6", "r4") "b 60f;"
+
+/* The masks of a run change at r6: if the label does, the run ends and another begins. r4 and r7
+ * are lost. */
+#define MEET(mask) \
+    "mov r7, r9; subs r7, #2; ldrh r7, [r7]; add r7, r10; ldrb r7, [r7]; push {r7};" \
+    LABEL("r4", mask) "pop {r7}; cmp r4, r7; beq 2f;" \
+    PUT_EDGE("r6", "r7") PUT_EDGE("r6", "r7") PUT_LABEL("r4", "r6", "r7") "2:"
+
+/* 60: inside. Apart: whether a pair differs on the left, or on the right only. */
+#define PAIR(y, z, c, d, left, right) \
+    LUMA(y, z) CHROMA(c, d) "ands r4, r6; ands r5, r6;" \
+    "cmp r4, r11; bne " left "; cmp r5, r11; bne " right ";"
+#define INSIDE(y, z, c, d) \
+    "60: adds r0, #4; cmp r0, lr; bhs 70f;" \
+    "61:" PAIR(y "+0", z "+0", c "+0", d "+0", "80f", "75f") \
+    PAIR(y "+4", z "+4", c "+4", d "+4", "81f", "76f") \
+    PAIR(y "+8", z "+8", c "+8", d "+8", "82f", "77f") \
+    PAIR(y "+12", z "+12", c "+12", d "+12", "83f", "78f") \
+    "adds r0, #16; cmp r0, lr; blo 61b; b 70f;" \
+    "78: adds r0, #4;" \
+    "77: adds r0, #4;" \
+    "76: adds r0, #4;" \
+    "75:" PLACE("r6") "b 41b;" \
+    "83: adds r0, #4;" \
+    "82: adds r0, #4;" \
+    "81: adds r0, #4; b 80f;"
+
+/* 70: inside, one by one to the end. 80: the left pixel differs from the run. */
+#define INSIDE_AT_THE_END(y, z, c, d) \
+    "70: ldr r7, [sp]; cmp r0, r7; bhs 98f;" \
+    PAIR(y "+0", z "+0", c "+0", d "+0", "80f", "75b") "adds r0, #4; b 70b;"
+#define CHANGE \
+    "80:" PLACE("r7") "cmp r4, #0; bne 89f;" \
+    PUT_EDGE("r7", "r4") "cmp r5, #0; bne 88f;" \
+    "adds r0, #4; cmp r6, #0;" IF_NOT_0_FAR("30b") "b 10b;" \
+    "88: adds r6, r7, #1; b 43b;" \
+    "89: movs r6, r7; mov r11, r4; push {r5}; movs r5, r4;" MEET("r5") \
+    "pop {r5}; cmp r5, r11;" IF_NOT_0_FAR("41b") "b 60b;"
+
+/* A run that is open ends behind the last pair. */
+#define LEAVE \
+    "98:" PLACE("r6") PUT_EDGE("r6", "r7") \
+    "99: add sp, #4; mov r0, r9;" RETURN
+
+/* Two statements, as strings have a limit. */
+#define RUNS(y, c, z, d) \
+    __asm__(ENTER OUTSIDE_BY_HALF(c, d) OUTSIDE_BY_CHROMA(y, z, c, d)); \
+    __asm__(".syntax unified;" OUTSIDE_BY_LUMA(y, z, c, d) OUTSIDE_AT_THE_END(c, d) \
+            BEGIN INSIDE(y, z, c, d) INSIDE_AT_THE_END(y, z, c, d) CHANGE LEAVE)
+
+/* clang-format on */
+
+/* The pairs of a row, and the masks of their bytes. */
+typedef struct pair_row {
+    const uint8_t *pairs, *end;
+    const pel_class_mask *of_y, *of_c, *of_d;
+} pair_row;
+
+#define NAKED __attribute__((naked, noinline))
+#define UNUSED __attribute__((unused))
+
+/* Both return the place behind the last edge. */
+NAKED static uint16_t *runs_y_first(UNUSED const pair_row *row, UNUSED uint8_t *labels,
+                                    UNUSED uint16_t *edges)
+{
+    RUNS("0", "1", "2", "3");
+}
+
+NAKED static uint16_t *runs_y_second(UNUSED const pair_row *row, UNUSED uint8_t *labels,
+                                     UNUSED uint16_t *edges)
+{
+    RUNS("1", "0", "3", "2");
+}
+
+uint16_t pel_row_classify_runs_thumb(const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                     uint16_t count, uint8_t *labels, uint16_t *edges)
+{
+    const int swap = src->v < src->u;
+    const uint8_t *const chroma = swap ? src->v : src->u;
+    const int y_first = src->y < chroma;
+    const uint8_t *const pairs = y_first ? src->y : chroma;
+    const pair_row row = {pairs, pairs + 2 * (size_t)count, boxes->y, swap ? boxes->v : boxes->u,
+                          swap ? boxes->u : boxes->v};
+    const uint16_t *end;
+
+    if (src->y_step != 2 || count % 2 != 0) {
+        return pel_row_classify_runs(boxes, src, count, labels, edges);
+    }
+    end = y_first ? runs_y_first(&row, labels, edges) : runs_y_second(&row, labels, edges);
+    return (uint16_t)((size_t)(end - edges) / 2);
+}
+
+#else
+typedef int nothing_here; /* an empty file is no C */
+#endif

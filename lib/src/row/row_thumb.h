@@ -1,0 +1,28 @@
+/* The row kernels of row.h that exist for Cortex-M in Thumb code, and where these are there. */
+#ifndef PEL_ROW_THUMB_H
+#define PEL_ROW_THUMB_H
+
+#include "row/row.h"
+
+/* Not for programs that are to be small, nor for those whose every branch lands on a mark.
+ * PEL_ROW_THUMB_V6 asks for what Armv6-M runs on the others too, for tests. */
+#if defined(__GNUC__) && defined(__thumb__) && defined(__ARM_ARCH_PROFILE) &&                      \
+    !defined(__OPTIMIZE_SIZE__) && !defined(__ARM_FEATURE_BTI_DEFAULT) &&                          \
+    !defined(__ARM_BIG_ENDIAN) && PEL_CLASS_MAX == 8
+#if __ARM_ARCH_PROFILE == 'M'
+#define PEL_ROW_THUMB 1
+#endif
+#endif
+#ifndef PEL_ROW_THUMB
+#define PEL_ROW_THUMB 0
+#endif
+
+#if PEL_ROW_THUMB
+uint16_t pel_row_classify_runs_thumb(const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                     uint16_t count, uint8_t *labels, uint16_t *edges);
+#define PEL_ROW_RUNS_SCALAR pel_row_classify_runs_thumb
+#else
+#define PEL_ROW_RUNS_SCALAR pel_row_classify_runs
+#endif
+
+#endif
