@@ -111,8 +111,10 @@ INLINE uint8x16_t chroma_masks(const source *s, const pixels *p)
 
 /* The label of each mask: 1 + the place of its lowest bit. */
 #define L1(high) high, 1, 2, 1, 3, 1, 2, 1, 4, 1, 2, 1, 3, 1, 2, 1
-static const uint8_t label_of_mask[256] = {L1(0), L1(5), L1(6), L1(5), L1(7), L1(5), L1(6), L1(5),
-                                           L1(8), L1(5), L1(6), L1(5), L1(7), L1(5), L1(6), L1(5)};
+/* Not static, as assembly names it. */
+__attribute__((used))
+const uint8_t pel_row_label_of_mask[256] = {L1(0), L1(5), L1(6), L1(5), L1(7), L1(5), L1(6), L1(5),
+                                            L1(8), L1(5), L1(6), L1(5), L1(7), L1(5), L1(6), L1(5)};
 #undef L1
 
 /* Elements of both in turn. In registers that are neighbours, as the instructions ask for: what
@@ -133,8 +135,8 @@ INLINE void put_labels(const source *s, const pixels *p, uint8x16_t chroma, uint
     const uint8x16_t left = vandq_u8(chroma, vldrbq_gather_offset_u8(s->of_y, p->left));
     const uint8x16_t right = vandq_u8(chroma, vldrbq_gather_offset_u8(s->of_y, p->right));
 
-    store_in_turn(vldrbq_gather_offset_u8(label_of_mask, left),
-                  vldrbq_gather_offset_u8(label_of_mask, right), labels);
+    store_in_turn(vldrbq_gather_offset_u8(pel_row_label_of_mask, left),
+                  vldrbq_gather_offset_u8(pel_row_label_of_mask, right), labels);
 }
 
 INLINE void classify(source s, layout how, uint8_t *labels, const uint8_t *end)
@@ -251,38 +253,6 @@ INLINE run_writer scan_block(run_writer writer, const uint8_t *labels, uint32_t 
     return writer;
 }
 
-/* Most blocks are background and told by their chroma alone. */
-INLINE run_writer find_runs(source s, layout how, uint8_t *labels, const uint8_t *end,
-                            uint16_t *edges)
-{
-    run_writer writer = {edges, edges + 1, 0};
-    uint8_t *at = labels;
-
-    while (at != end) {
-        const pixels p = next_pixels(&s, how);
-        const uint8x16_t chroma = chroma_masks(&s, &p);
-        at += BLOCK;
-        if ((vaddvq_u8(chroma) | writer.label) == 0) {
-            continue;
-        }
-        put_labels(&s, &p, chroma, at - BLOCK);
-        writer = scan_block(writer, at - BLOCK, (uint32_t)(at - BLOCK - labels));
-    }
-    return writer;
-}
-
-static __attribute__((noinline)) run_writer runs_luma_first(source s, uint8_t *labels,
-                                                            const uint8_t *end, uint16_t *edges)
-{
-    return find_runs(s, LUMA_FIRST, labels, end, edges);
-}
-
-static __attribute__((noinline)) run_writer runs_chroma_first(source s, uint8_t *labels,
-                                                              const uint8_t *end, uint16_t *edges)
-{
-    return find_runs(s, CHROMA_FIRST, labels, end, edges);
-}
-
 /* The last labels of a row, one by one, and its end. */
 static run_writer find_runs_by_label(run_writer writer, const uint8_t *labels, unsigned x,
                                      unsigned count)
@@ -312,28 +282,131 @@ uint16_t pel_row_find_runs_mve(const uint8_t *labels, uint16_t count, uint16_t *
     return (uint16_t)((size_t)(writer.begin - edges) / 2);
 }
 
-uint16_t pel_row_classify_runs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
-                                   uint16_t count, uint8_t *labels, uint16_t *edges)
-{
-    const source s = source_of(boxes, src);
-    const layout how = layout_of(src, &s);
-    const uint16_t done = (uint16_t)(count - count % BLOCK);
-    run_writer writer;
+/*
+ * From packed pixels to runs, in assembly: compilers keep too much in memory here. Most blocks are
+ * background and told by their chroma alone. The others are labelled, and their changes looked for
+ * in the labels; at most of these a run begins or ends, and one edge is written, but where labels
+ * meet there are two.
+ *
+ *     r0   pixels                               r7   label so far
+ *     r1   masks of Y                           r8   changes of the label, the first on top
+ *     r2   masks of the first chroma byte       r9   end of the labels
+ *     r3   masks of the second one              r10  the top bit
+ *     r4   labels of the block, or its place    r11  bits, r12 too
+ *     r5   labels of masks                      lr   blocks that are left
+ *     r6   place of the next edge               [sp] r5, how many pixels
+ *     q0 to q3  the bytes of the pixels         q4 to q6  masks, and labels one pixel before
+ */
 
-    if (how == LUMA_FIRST) {
-        writer = runs_luma_first(s, labels, labels + done, edges);
-    } else if (how == CHROMA_FIRST) {
-        writer = runs_chroma_first(s, labels, labels + done, edges);
-    } else {
+/* clang-format off */
+
+/* y and c are what decides where the pixels begin: the word of pel_row_pairs, or that of r4, r5
+ * that is lower. */
+#define ENTER(load_pixels) \
+    ".syntax unified; push {r4-r11, lr}; vpush {d8-d13}; ldrd r4, r5, [r1, #4]; mov r12, r1;" \
+    "add r9, r3, r2; ldrd r1, r8, [r0]; ldr r11, [r0, #8]; lsr lr, r2, #5; mov r10, r2;" \
+    "cmp r4, r5; itete lo; movlo r2, r8; movhs r2, r11; movlo r3, r11; movhs r3, r8;" \
+    load_pixels \
+    "ldr r5, 7f; ldr r6, [sp, #84]; movs r7, #0; push {r5, r10}; mov r10, #0x80000000;"
+#define PIXELS_AT_Y "ldr r0, [r12];"
+#define PIXELS_AT_CHROMA "ite lo; movlo r0, r4; movhs r0, r5;"
+
+#define NEXT_BLOCK(c, d) \
+    "1: vld40.8 {q0, q1, q2, q3}, [r0]; vld41.8 {q0, q1, q2, q3}, [r0];" \
+    "vld42.8 {q0, q1, q2, q3}, [r0]; vld43.8 {q0, q1, q2, q3}, [r0]!;" \
+    "vldrb.u8 q4, [r2, " c "]; vldrb.u8 q5, [r3, " d "]; vand q4, q4, q5;" \
+    "vaddv.u8 r12, q4; orrs r12, r7; beq 8f;"
+
+#define LABEL_BLOCK(left, right) \
+    "vldrb.u8 q5, [r1, " left "]; vldrb.u8 q6, [r1, " right "]; vand q5, q5, q4; vand q6, q6, q4;" \
+    "vldrb.u8 q0, [r5, q5]; vldrb.u8 q1, [r5, q6]; sub r4, r9, lr, lsl #5;" \
+    "vst20.8 {q0, q1}, [r4]; vst21.8 {q0, q1}, [r4]; vldrb.u8 q2, [r4]; vldrb.u8 q3, [r4, #16];"
+
+/* r12: the label before the block; r8: bit i where pixel i differs from the one before. */
+#define CHANGES \
+    "mov r12, r7; vmov q5, q2; vshlc q5, r7, #8; vmov q6, q3; vshlc q6, r7, #8;" \
+    "vcmp.i8 ne, q2, q5; vmrs r8, p0; vcmp.i8 ne, q3, q6; vmrs r11, p0;" \
+    "orrs r8, r8, r11, lsl #16; beq 8f;"
+
+/* r11: those of them where labels meet, that is, with a label before and behind. */
+#define MEETINGS \
+    "vcmp.i8 ne, q2, zr; vmrs r11, p0; vcmp.i8 ne, q3, zr; vmrs r4, p0;" \
+    "orr r11, r11, r4, lsl #16; cmp r12, #1; adc r12, r11, r11; and r11, r11, r12;" \
+    "ldr r4, [sp, #4]; sub r4, r4, lr, lsl #5; ands r11, r8; rbit r8, r8; bne 3f;"
+
+#define PUT_EDGES \
+    "2: clz r11, r8; add r12, r4, r11; strh r12, [r6], #2; lsr r11, r10, r11; bics r8, r11;" \
+    "bne 2b; le lr, 1b; b 9f;" \
+    "3: rbit r11, r11;" \
+    "4: clz r12, r8; add r5, r4, r12; strh r5, [r6], #2; lsr r12, r10, r12;" \
+    "tst r11, r12; it ne; strhne r5, [r6], #2; bics r8, r12; bne 4b; ldr r5, [sp];"
+
+/* A run that is open ends behind the last pixel. */
+#define LEAVE \
+    "9: pop {r5, r10}; cbz r7, 5f; strh r10, [r6], #2;" \
+    "5: vpop {d8-d13}; ldr r1, [sp, #36]; subs r0, r6, r1; lsrs r0, r0, #2; pop {r4-r11, pc};" \
+    ".balign 4; 7: .word pel_row_label_of_mask;"
+
+#define FIND_RUNS(load_pixels, left, right, c, d) \
+    __asm__(ENTER(load_pixels) "wls lr, lr, 9f;" NEXT_BLOCK(c, d) LABEL_BLOCK(left, right) \
+            CHANGES MEETINGS PUT_EDGES "8: le lr, 1b;" LEAVE)
+
+/* clang-format on */
+
+#define NAKED __attribute__((naked, noinline))
+#define UNUSED __attribute__((unused))
+
+/* As pel_row_classify_runs_mve, for packed pixels and whole blocks. */
+NAKED static uint16_t runs_luma_first(UNUSED const pel_row_boxes *boxes,
+                                      UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
+                                      UNUSED uint8_t *labels, UNUSED uint16_t *edges)
+{
+    FIND_RUNS(PIXELS_AT_Y, "q0", "q2", "q1", "q3");
+}
+
+NAKED static uint16_t runs_chroma_first(UNUSED const pel_row_boxes *boxes,
+                                        UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
+                                        UNUSED uint8_t *labels, UNUSED uint16_t *edges)
+{
+    FIND_RUNS(PIXELS_AT_CHROMA, "q1", "q3", "q0", "q2");
+}
+
+/* Rows that are not packed, or not of whole blocks. */
+static __attribute__((noinline)) uint16_t find_in_any(const pel_row_boxes *boxes,
+                                                      const pel_row_pairs *src, uint16_t count,
+                                                      uint8_t *labels, uint16_t *edges)
+{
+    const uint16_t done = (uint16_t)(count - count % BLOCK);
+    const pel_row_pairs rest = rest_of(src, done);
+    run_writer writer = {edges, edges + 1, 0};
+    uint16_t *next;
+
+    if (src->y_step != 2) {
         pel_row_classify_pairs_mve(boxes, src, count, labels);
         return pel_row_find_runs_mve(labels, count, edges);
     }
-    if (done < count) {
-        const pel_row_pairs rest = rest_of(src, done);
-        pel_row_classify_pairs(boxes, &rest, (uint16_t)(count - done), labels + done);
+    if (done != 0) {
+        next = edges + 2 * (size_t)pel_row_classify_runs_mve(boxes, src, done, labels, edges);
+        writer.begin = next;
+        writer.end = next + 1;
+        if (next != edges && next[-1] == done) { /* it may go on */
+            writer.label = labels[next[-2]];
+            writer.end = next - 1;
+        }
     }
+    pel_row_classify_pairs(boxes, &rest, (uint16_t)(count - done), labels + done);
     writer = find_runs_by_label(writer, labels, done, count);
     return (uint16_t)((size_t)(writer.begin - edges) / 2);
+}
+
+uint16_t pel_row_classify_runs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                   uint16_t count, uint8_t *labels, uint16_t *edges)
+{
+    if (src->y_step != 2 || count % BLOCK != 0) {
+        return find_in_any(boxes, src, count, labels, edges);
+    }
+    return src->y < src->u && src->y < src->v ? runs_luma_first(boxes, src, count, labels, edges)
+                                              : runs_chroma_first(boxes, src, count, labels, edges);
 }
 
 #else

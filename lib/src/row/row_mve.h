@@ -13,6 +13,7 @@
 #endif
 
 #if PEL_ROW_MVE && PEL_CLASS_MAX == 8
+extern const uint8_t pel_row_label_of_mask[256];
 void pel_row_classify_pairs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
                                 uint16_t count, uint8_t *labels);
 uint16_t pel_row_find_runs_mve(const uint8_t *labels, uint16_t count, uint16_t *edges);

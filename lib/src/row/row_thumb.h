@@ -4,11 +4,11 @@
 
 #include "row/row.h"
 
-/* Not for programs that are to be small, nor for those whose every branch lands on a mark.
+/* Not where there is Helium, for programs that are to be small, nor for those whose every branch lands on a mark.
  * PEL_ROW_THUMB_V6 asks for what Armv6-M runs on the others too, for tests. */
 #if defined(__GNUC__) && defined(__thumb__) && defined(__ARM_ARCH_PROFILE) &&                      \
     !defined(__OPTIMIZE_SIZE__) && !defined(__ARM_FEATURE_BTI_DEFAULT) &&                          \
-    !defined(__ARM_BIG_ENDIAN) && PEL_CLASS_MAX == 8
+    !defined(__ARM_BIG_ENDIAN) && !defined(__ARM_FEATURE_MVE) && PEL_CLASS_MAX == 8
 #if __ARM_ARCH_PROFILE == 'M'
 #define PEL_ROW_THUMB 1
 #endif
