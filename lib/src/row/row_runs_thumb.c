@@ -65,10 +65,13 @@
 
 /* ---- States -------------------------------------------------------------------------------- */
 
-#define ENTER \
-    ".syntax unified;" SAVE "mov r10, r1; mov r9, r2; ldr r4, [r0, #4]; push {r4};" \
-    "subs r4, #12; mov lr, r4; subs r4, #16; mov r12, r4;" \
-    "ldr r1, [r0, #8]; ldr r2, [r0, #12]; ldr r3, [r0, #16]; ldr r0, [r0]; mov r8, r0;"
+/* Of the chroma bytes, the first may be U or V. */
+#define ENTER(pairs) \
+    ".syntax unified;" SAVE "mov r10, r3; ldr r6, [sp, #36]; mov r9, r6; lsls r7, r2, #1;" \
+    "ldr r6, [r1]; ldr r4, [r1, #4]; ldr r5, [r1, #8]; ldr r1, [r0]; ldr r2, [r0, #4];" \
+    "ldr r3, [r0, #8]; cmp r4, r5; bls 1f; mov r0, r2; mov r2, r3; mov r3, r0; mov r4, r5;" \
+    "1: mov r0, " pairs "; mov r8, r0; adds r7, r0; push {r7};" \
+    "subs r7, #12; mov lr, r7; subs r7, #16; mov r12, r7;"
 
 /* 10: outside, by half of the chroma. Where it does not tell for four neighbours, on to 20. */
 #define OUTSIDE_BY_HALF(c, d) \
@@ -196,54 +199,42 @@
 /* A run that is open ends behind the last pair. */
 #define LEAVE \
     "98:" PLACE("r6") PUT_EDGE("r6", "r7") \
-    "99: add sp, #4; mov r0, r9;" RETURN
+    "99: add sp, #4; ldr r1, [sp, #36]; mov r0, r9; subs r0, r1; lsrs r0, #2;" RETURN
 
-/* Two statements, as strings have a limit. */
-#define RUNS(y, c, z, d) \
-    __asm__(ENTER OUTSIDE_BY_HALF(c, d) OUTSIDE_BY_CHROMA(y, z, c, d)); \
-    __asm__(".syntax unified;" OUTSIDE_BY_LUMA(y, z, c, d) OUTSIDE_AT_THE_END(c, d) \
-            BEGIN INSIDE(y, z, c, d) INSIDE_AT_THE_END(y, z, c, d) CHANGE LEAVE)
+/* In parts, as strings have a limit. */
+#define RUNS(pairs, y, c, z, d) \
+    __asm__(ENTER(pairs) OUTSIDE_BY_HALF(c, d) OUTSIDE_BY_CHROMA(y, z, c, d)); \
+    __asm__(".syntax unified;" OUTSIDE_BY_LUMA(y, z, c, d) OUTSIDE_AT_THE_END(c, d) BEGIN); \
+    __asm__(".syntax unified;" INSIDE(y, z, c, d) INSIDE_AT_THE_END(y, z, c, d) CHANGE LEAVE)
 
 /* clang-format on */
-
-/* The pairs of a row, and the masks of their bytes. */
-typedef struct pair_row {
-    const uint8_t *pairs, *end;
-    const pel_class_mask *of_y, *of_c, *of_d;
-} pair_row;
 
 #define NAKED __attribute__((naked, noinline))
 #define UNUSED __attribute__((unused))
 
-/* Both return the place behind the last edge. */
-NAKED static uint16_t *runs_y_first(UNUSED const pair_row *row, UNUSED uint8_t *labels,
-                                    UNUSED uint16_t *edges)
+/* As pel_row_classify_runs, for an even number of packed pixels. */
+NAKED static uint16_t runs_y_first(UNUSED const pel_row_boxes *boxes,
+                                   UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
+                                   UNUSED uint8_t *labels, UNUSED uint16_t *edges)
 {
-    RUNS("0", "1", "2", "3");
+    RUNS("r6", "0", "1", "2", "3");
 }
 
-NAKED static uint16_t *runs_y_second(UNUSED const pair_row *row, UNUSED uint8_t *labels,
-                                     UNUSED uint16_t *edges)
+NAKED static uint16_t runs_y_second(UNUSED const pel_row_boxes *boxes,
+                                    UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
+                                    UNUSED uint8_t *labels, UNUSED uint16_t *edges)
 {
-    RUNS("1", "0", "3", "2");
+    RUNS("r4", "1", "0", "3", "2");
 }
 
 uint16_t pel_row_classify_runs_thumb(const pel_row_boxes *boxes, const pel_row_pairs *src,
                                      uint16_t count, uint8_t *labels, uint16_t *edges)
 {
-    const int swap = src->v < src->u;
-    const uint8_t *const chroma = swap ? src->v : src->u;
-    const int y_first = src->y < chroma;
-    const uint8_t *const pairs = y_first ? src->y : chroma;
-    const pair_row row = {pairs, pairs + 2 * (size_t)count, boxes->y, swap ? boxes->v : boxes->u,
-                          swap ? boxes->u : boxes->v};
-    const uint16_t *end;
-
     if (src->y_step != 2 || count % 2 != 0) {
         return pel_row_classify_runs(boxes, src, count, labels, edges);
     }
-    end = y_first ? runs_y_first(&row, labels, edges) : runs_y_second(&row, labels, edges);
-    return (uint16_t)((size_t)(end - edges) / 2);
+    return src->y < src->u && src->y < src->v ? runs_y_first(boxes, src, count, labels, edges)
+                                              : runs_y_second(boxes, src, count, labels, edges);
 }
 
 #else

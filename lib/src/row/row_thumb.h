@@ -4,8 +4,8 @@
 
 #include "row/row.h"
 
-/* Not where there is Helium, for programs that are to be small, nor for those whose every branch lands on a mark.
- * PEL_ROW_THUMB_V6 asks for what Armv6-M runs on the others too, for tests. */
+/* Not where there is Helium, nor for programs that are to be small or whose every branch lands on a
+ * mark. PEL_ROW_THUMB_V6 asks for what Armv6-M runs on the others too, for tests. */
 #if defined(__GNUC__) && defined(__thumb__) && defined(__ARM_ARCH_PROFILE) &&                      \
     !defined(__OPTIMIZE_SIZE__) && !defined(__ARM_FEATURE_BTI_DEFAULT) &&                          \
     !defined(__ARM_BIG_ENDIAN) && !defined(__ARM_FEATURE_MVE) && PEL_CLASS_MAX == 8
