@@ -11,9 +11,8 @@
 #define KERNEL(name) pel_row_##name##_avx512
 #define V(operation) _mm512_##operation
 #define BITS(operation) _mm512_##operation##_si512
-#define MOVED(last, here, n) _mm512_alignr_epi8(here, _mm512_alignr_epi64(here, last, 6), 16 - (n))
 
-enum { LANES = 64 };
+enum { LANES = 64, BLOCK = 64 };
 typedef __m512i vec;
 typedef __m512i_u loose_vec;
 
@@ -22,74 +21,182 @@ INLINE vec everywhere(__m128i bytes)
     return _mm512_broadcast_i32x4(bytes);
 }
 
-INLINE vec in_halves(const uint8_t *low, const uint8_t *high)
-{
-    const __m256i first = _mm256_loadu_si256((const __m256i_u *)(const void *)low);
-    const __m256i second = _mm256_loadu_si256((const __m256i_u *)(const void *)high);
-    return _mm512_inserti64x4(_mm512_castsi256_si512(first), second, 1);
-}
-
-INLINE vec eights(vec bytes)
-{
-    return _mm512_permutexvar_epi64(_mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7), bytes);
-}
-
-INLINE vec fours(vec bytes)
-{
-    const vec places = _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
-    return _mm512_permutexvar_epi32(places, bytes);
-}
-
-INLINE vec twice(vec bytes)
-{
-    const vec words = _mm512_cvtepu8_epi16(_mm512_castsi512_si256(bytes));
-    return _mm512_or_si512(words, _mm512_slli_epi16(words, 8));
-}
-
-INLINE int are_apart(vec a, vec b)
-{
-    return _mm512_test_epi8_mask(a, b) == 0;
-}
-
-INLINE uint64_t equal_bytes(vec a, vec b)
-{
-    return _mm512_cmpeq_epi8_mask(a, b);
-}
-
 #include "row/row_nibbles_template.h"
 
-typedef tables chroma_tables;
+/* ---- Blocks of labels ---------------------------------------------------------------------- */
 
-/* 16 bytes of U's tables in every 16 of the low half, of V's in the high half. */
-INLINE vec table_of(const uint8_t *nibbles)
+typedef vec block;
+
+INLINE block load_block(const uint8_t *labels)
 {
-    const __m128i u = load16(nibbles + PEL_NIBBLES_CHANNEL);
-    const __m128i v = load16(nibbles + 2 * PEL_NIBBLES_CHANNEL);
-    return _mm512_inserti64x4(_mm512_broadcast_i32x4(u), _mm256_broadcastsi128_si256(v), 1);
+    return load(labels);
 }
 
-INLINE chroma_tables chroma_tables_of(const uint8_t *nibbles)
+INLINE vec last_of(block b)
 {
-    const tables t = {table_of(nibbles + PEL_NIBBLES_ABOVE), table_of(nibbles + PEL_NIBBLES_FIRST),
-                      table_of(nibbles + PEL_NIBBLES_BELOW), table_of(nibbles + PEL_NIBBLES_FROM),
-                      table_of(nibbles + PEL_NIBBLES_TO)};
-    return t;
+    return b;
 }
 
-INLINE chroma chroma_masks(const chroma_tables *t, vec nibble, vec values)
+INLINE uint64_t equal_before(vec last, block b)
 {
-    const vec masks = masks_of(t, nibble, values);
-    const chroma c = {masks, _mm512_shuffle_i64x2(masks, masks, 0x4E)};
-    return c;
+    const vec before = _mm512_alignr_epi8(b, _mm512_alignr_epi64(b, last, 6), 15);
+    return _mm512_cmpeq_epi8_mask(before, b);
 }
+
+INLINE uint64_t zeros_of(block b)
+{
+    return _mm512_testn_epi8_mask(b, b);
+}
+
+/* Places of lowest bits, as labels and where there is none. */
+INLINE void store_places(uint8_t *labels, block places, vec none)
+{
+    store(labels, _mm512_sub_epi8(places, none));
+}
+
+INLINE block no_places(vec none)
+{
+    return none;
+}
+
+INLINE uint64_t nowhere_of(block places)
+{
+    return _mm512_movepi8_mask(places);
+}
+
+/* ---- Pixels -------------------------------------------------------------------------------- */
+
+/* The nibble tables of a channel; see row_nibbles.h. */
+typedef struct tables {
+    vec rough, above, below, from, to;
+} tables;
+
+/* A row and its classes. Packed 4:2:2 begins at `bytes`. The tables of chroma are those of U in the
+ * low half and of V in the high half, and so is chroma itself. The orders say where things lie in
+ * two vectors of packed bytes, and the chroma masks of every pixel in one of them. */
+typedef struct row {
+    const uint8_t *constants;
+    const pel_row_pairs *src;
+    const uint8_t *bytes;
+    vec nibble, luma_order, chroma_order, twice_u, twice_v;
+    tables luma, chroma;
+} row;
+
+INLINE vec chroma_table(const uint8_t *nibbles, unsigned which)
+{
+    const vec of_u = table_of(nibbles + PEL_NIBBLES_CHANNEL, which);
+    const vec of_v = table_of(nibbles + 2 * PEL_NIBBLES_CHANNEL, which);
+    return _mm512_shuffle_i64x2(of_u, of_v, 0x44);
+}
+
+/* 0, 1, 2, ... */
+INLINE vec counted(void)
+{
+    return _mm512_setr_epi64(0x0706050403020100, 0x0F0E0D0C0B0A0908, 0x1716151413121110,
+                             0x1F1E1D1C1B1A1918, 0x2726252423222120, 0x2F2E2D2C2B2A2928,
+                             0x3736353433323130, 0x3F3E3D3C3B3A3938);
+}
+
+/* One byte in the low half, another in the high half. */
+INLINE vec in_halves(size_t low, size_t high)
+{
+    return _mm512_inserti64x4(_mm512_set1_epi8((char)low), _mm256_set1_epi8((char)high), 1);
+}
+
+INLINE row row_of(const uint8_t *nibbles, const pel_row_pairs *src)
+{
+    const uint8_t *const c = src->u < src->v ? src->u : src->v;
+    const uint8_t *const bytes = src->y_step == 2 && src->y < c ? src->y : c;
+    const uint8_t *const constant = constants();
+    const vec twice = _mm512_and_si512(_mm512_srli_epi16(counted(), 1), _mm512_set1_epi8(31));
+    const vec doubled = _mm512_add_epi8(counted(), counted());
+    const vec steps = src->c_step == 4 ? _mm512_add_epi8(doubled, doubled) : doubled;
+    const row r = {
+        constant,
+        src,
+        bytes,
+        everywhere(load16(constant + OF_NIBBLE)),
+        _mm512_add_epi8(doubled, _mm512_set1_epi8(bytes < src->y)),
+        _mm512_add_epi8(steps, in_halves((size_t)(src->u - bytes), (size_t)(src->v - bytes))),
+        twice,
+        _mm512_add_epi8(twice, _mm512_set1_epi8(32)),
+        {rough_table(nibbles), table_of(nibbles, PEL_NIBBLES_ABOVE),
+         table_of(nibbles, PEL_NIBBLES_BELOW), table_of(nibbles, PEL_NIBBLES_FROM),
+         table_of(nibbles, PEL_NIBBLES_TO)},
+        {_mm512_or_si512(chroma_table(nibbles, PEL_NIBBLES_ABOVE),
+                         chroma_table(nibbles, PEL_NIBBLES_FIRST)),
+         chroma_table(nibbles, PEL_NIBBLES_ABOVE), chroma_table(nibbles, PEL_NIBBLES_BELOW),
+         chroma_table(nibbles, PEL_NIBBLES_FROM), chroma_table(nibbles, PEL_NIBBLES_TO)}};
+    return r;
+}
+
+INLINE row packed_row_of(const uint8_t *nibbles, const pel_row_pairs *src)
+{
+    return row_of(nibbles, src);
+}
+
+/* U in the low half, V in the high half. */
+INLINE vec chroma_at(const row *r, int is_packed, size_t x)
+{
+    const pel_row_pairs *const src = r->src;
+
+    if (is_packed) {
+        return _mm512_permutex2var_epi8(load(r->bytes + 2 * x), r->chroma_order,
+                                        load(r->bytes + 2 * x + LANES));
+    }
+    if (src->c_step == 1) {
+        const __m256i u = _mm256_loadu_si256((const __m256i_u *)(const void *)(src->u + x / 2));
+        const __m256i v = _mm256_loadu_si256((const __m256i_u *)(const void *)(src->v + x / 2));
+        return _mm512_inserti64x4(_mm512_castsi256_si512(u), v, 1);
+    }
+    if (src->c_step == 2) {
+        return _mm512_permutexvar_epi8(r->chroma_order, load(r->bytes + x));
+    }
+    return in_halves(*src->u, *src->v); /* gray */
+}
+
+INLINE vec luma_at(const row *r, int is_packed, size_t x)
+{
+    return is_packed ? _mm512_permutex2var_epi8(load(r->bytes + 2 * x), r->luma_order,
+                                                load(r->bytes + 2 * x + LANES))
+                     : load(r->src->y + x);
+}
+
+/* The class masks of values, see row_nibbles_template.h. */
+INLINE vec masks_by(const tables *t, vec nibble, vec values)
+{
+    enum { OR_AND = 0xA8 }; /* (a | b) & c */
+    const vec high = high_nibbles(nibble, values), low = _mm512_and_si512(values, nibble);
+    const vec from = _mm512_ternarylogic_epi64(_mm512_shuffle_epi8(t->above, high),
+                                               _mm512_shuffle_epi8(t->from, low),
+                                               _mm512_shuffle_epi8(t->rough, high), OR_AND);
+    return _mm512_ternarylogic_epi64(_mm512_shuffle_epi8(t->below, high),
+                                     _mm512_shuffle_epi8(t->to, low), from, OR_AND);
+}
+
+/* See row_pairs_template.h. */
+INLINE int places_at(const row *r, int is_packed, size_t x, block *places)
+{
+    enum { AND_AND = 0x80 };
+    const vec chroma = masks_by(&r->chroma, r->nibble, chroma_at(r, is_packed, x));
+    vec masks;
+
+    if (_mm512_test_epi8_mask(chroma, _mm512_shuffle_i64x2(chroma, chroma, 0x4E)) == 0) {
+        return 0;
+    }
+    masks = masks_by(&r->luma, r->nibble, luma_at(r, is_packed, x));
+    masks = _mm512_ternarylogic_epi64(_mm512_permutexvar_epi8(r->twice_u, chroma),
+                                      _mm512_permutexvar_epi8(r->twice_v, chroma), masks, AND_AND);
+    *places = places_of_lowest(r->constants, r->nibble, masks);
+    return 1;
+}
+
+/* ---- Edges --------------------------------------------------------------------------------- */
 
 /* The places of the set bits, in order. */
 INLINE vec places_of(uint64_t bits)
 {
-    const vec all = _mm512_setr_epi64(0x0706050403020100, 0x0F0E0D0C0B0A0908, 0x1716151413121110,
-                                      0x1F1E1D1C1B1A1918, 0x2726252423222120, 0x2F2E2D2C2B2A2928,
-                                      0x3736353433323130, 0x3F3E3D3C3B3A3938);
-    return _mm512_maskz_compress_epi8(bits, all);
+    return _mm512_maskz_compress_epi8(bits, counted());
 }
 
 /* As in row_edges_template.h. Ends and begins of runs take turns: the first ones of either kind are

@@ -1,4 +1,4 @@
-/* Row kernels from pixels to runs for x86 with SSSE3: 16 pixels at a time. */
+/* Row kernels from pixels to runs for x86 with SSSE3: 32 pixels at a time. */
 #include "row/row_x86.h"
 
 #if defined(PEL_ROW_X86)
@@ -10,7 +10,7 @@
 #define KERNEL(name) pel_row_##name##_ssse3
 #define V(operation) _mm_##operation
 #define BITS(operation) _mm_##operation##_si128
-#define MOVED(last, here, n) _mm_alignr_epi8(here, last, 16 - (n))
+#define MOVED(last, here) _mm_alignr_epi8(here, last, 15)
 
 enum { LANES = 16 };
 typedef __m128i vec;
@@ -21,25 +21,9 @@ INLINE vec everywhere(__m128i bytes)
     return bytes;
 }
 
-INLINE vec in_halves(const uint8_t *low, const uint8_t *high)
-{
-    return _mm_unpacklo_epi64(_mm_loadl_epi64((const __m128i_u *)(const void *)low),
-                              _mm_loadl_epi64((const __m128i_u *)(const void *)high));
-}
-
 INLINE vec eights(vec bytes)
 {
     return bytes;
-}
-
-INLINE vec fours(vec bytes)
-{
-    return bytes;
-}
-
-INLINE vec twice(vec bytes)
-{
-    return _mm_unpacklo_epi8(bytes, bytes);
 }
 
 INLINE int are_apart(vec a, vec b)
@@ -71,25 +55,7 @@ INLINE size_t bit_count(uint64_t bits)
 
 #include "row/row_nibbles_template.h"
 
-/* A half has no tables of its own here: all values are looked up twice. */
-typedef struct chroma_tables {
-    tables u, v;
-} chroma_tables;
-
-INLINE chroma_tables chroma_tables_of(const uint8_t *nibbles)
-{
-    const chroma_tables t = {tables_of(nibbles + PEL_NIBBLES_CHANNEL),
-                             tables_of(nibbles + 2 * PEL_NIBBLES_CHANNEL)};
-    return t;
-}
-
-INLINE chroma chroma_masks(const chroma_tables *t, vec nibble, vec values)
-{
-    const chroma c = {masks_of(&t->u, nibble, values),
-                      _mm_srli_si128(masks_of(&t->v, nibble, values), 8)};
-    return c;
-}
-
+#include "row/row_pairs_template.h"
 #include "row/row_edges_template.h"
 #include "row/row_classify_template.h"
 

@@ -12,7 +12,7 @@
 #if defined(__GNUC__) && defined(__x86_64__)
 #define PEL_ROW_X86 1
 
-enum { PEL_ROW_VECTOR_SSSE3 = 16, PEL_ROW_VECTOR_AVX2 = 32, PEL_ROW_VECTOR_AVX512 = 64 };
+enum { PEL_ROW_VECTOR_SSSE3 = 32, PEL_ROW_VECTOR_AVX2 = 64, PEL_ROW_VECTOR_AVX512 = 64 };
 
 #define PEL_ROW_KERNELS(isa)                                                                       \
     uint16_t pel_row_classify_nibbles_##isa(const uint8_t *nibbles, const pel_row_pairs *src,      \
