@@ -2,6 +2,8 @@
 #include "row/row_x86.h"
 
 #if defined(PEL_ROW_X86)
+#include "row/row_places.h"
+
 #include <immintrin.h>
 
 #define ISA __attribute__((target("avx2,bmi,bmi2,popcnt")))
@@ -49,6 +51,33 @@ INLINE size_t bit_count(uint64_t bits)
 #include "row/row_nibbles_template.h"
 
 #include "row/row_pairs_template.h"
+
+INLINE uint64_t put_place(uint16_t *edge, uint64_t bits, size_t x);
+INLINE uint64_t put_four_places(uint16_t *edge, uint64_t bits, size_t x);
+
+/* Where there are more than a few, those of a byte of bits at once. */
+INLINE void put_many(uint16_t *edge, uint64_t bits, size_t x)
+{
+    const uint64_t *const table = pel_i_places();
+    __m128i before = _mm_set1_epi16((int16_t)x);
+
+    if (bit_count(bits) <= 7) {
+        bits = put_four_places(edge, bits, x);
+        bits = put_place(edge + 4, bits, x);
+        bits = put_place(edge + 5, bits, x);
+        (void)put_place(edge + 6, bits, x);
+        return;
+    }
+    for (unsigned i = 0; i < 8; i++, bits >>= 8) {
+        const uint64_t *const places = table + (bits & 0xFF);
+        const __m128i words =
+            _mm_cvtepu8_epi16(_mm_loadl_epi64((const __m128i_u *)(const void *)places));
+        _mm_storeu_si128((__m128i_u *)(void *)edge, _mm_add_epi16(words, before));
+        edge += bit_count(bits & 0xFF);
+        before = _mm_add_epi16(before, _mm_set1_epi16(8));
+    }
+}
+
 #include "row/row_edges_template.h"
 #include "row/row_classify_template.h"
 

@@ -1,7 +1,8 @@
 /*
- * The places of bits as edges of runs, one by one, for processors that cannot do better. The file
- * that includes this one says what lowest_place and bit_count of 64 bits are; the place of none may
- * be any.
+ * The places of bits as edges of runs, for processors that cannot store what a mask selects. The
+ * file that includes this one says what lowest_place and bit_count of 64 bits are, the place of
+ * none may be any; and put_many, which writes the places of one bit or more where there are likely
+ * to be several.
  */
 
 INLINE uint64_t put_place(uint16_t *edge, uint64_t bits, size_t x)
@@ -10,20 +11,26 @@ INLINE uint64_t put_place(uint16_t *edge, uint64_t bits, size_t x)
     return bits & (bits - 1);
 }
 
-/* A place for every bit; there is one. Two places are written, then four and four, whatever there
- * are, so that few jumps depend on the picture. Up to three of them are scratch, for which there is
- * room: the pixels before x have 2 x - 1 edges at most. */
+/* Four at once, whatever there are, so that few jumps depend on the picture. */
+INLINE uint64_t put_four_places(uint16_t *edge, uint64_t bits, size_t x)
+{
+    bits = put_place(edge, bits, x);
+    bits = put_place(edge + 1, bits, x);
+    bits = put_place(edge + 2, bits, x);
+    return put_place(edge + 3, bits, x);
+}
+
+/* A place for every bit; there is one. Places that are none are scratch, for which there is room:
+ * the pixels before x have 2 x - 1 edges at most, so that there are 2 n + 3 places for what begins
+ * or ends at the n pixels from x to the end of the row. Two are written at one pixel or more, nine
+ * at three or more. */
 INLINE uint16_t *put_places(uint16_t *edge, uint64_t bits, size_t x)
 {
     uint16_t *const end = edge + bit_count(bits);
+    const uint64_t others = put_place(edge + 1, put_place(edge, bits, x), x);
 
-    bits = put_place(edge, bits, x);
-    bits = put_place(edge + 1, bits, x);
-    for (edge += 2; bits != 0; edge += 4) {
-        bits = put_place(edge, bits, x);
-        bits = put_place(edge + 1, bits, x);
-        bits = put_place(edge + 2, bits, x);
-        bits = put_place(edge + 3, bits, x);
+    if (others != 0) {
+        put_many(edge + 2, others, x);
     }
     return end;
 }

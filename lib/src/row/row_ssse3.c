@@ -56,6 +56,16 @@ INLINE size_t bit_count(uint64_t bits)
 #include "row/row_nibbles_template.h"
 
 #include "row/row_pairs_template.h"
+
+INLINE uint64_t put_four_places(uint16_t *edge, uint64_t bits, size_t x);
+
+INLINE void put_many(uint16_t *edge, uint64_t bits, size_t x)
+{
+    for (; bits != 0; edge += 4) {
+        bits = put_four_places(edge, bits, x);
+    }
+}
+
 #include "row/row_edges_template.h"
 #include "row/row_classify_template.h"
 
