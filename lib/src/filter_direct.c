@@ -51,32 +51,59 @@ static void compute(const direct *d, const uint8_t *const rows[], uint16_t count
     }
 }
 
-/* `count` rows from y on, without their sides. */
-APART static void filter_middles(const direct *d, uint16_t y, unsigned count)
+/* ---- Middles ------------------------------------------------------------------------------- */
+
+/* Several rows at once, where there is a kernel for them. */
+#define AT_ONCE(op_, kernel)                                                                       \
+    if (c->op == (op_)) {                                                                          \
+        pel_i_row_##kernel##_rows(c->backend, rows, width, count, to->bytes, to->stride);          \
+        return 1;                                                                                  \
+    }
+
+APART static int bytes_at_once(const pel_filter_config *c, const uint8_t *const rows[],
+                               uint16_t width, uint16_t count, const pel_filter_target *to)
+{
+    AT_ONCE(pel_op_gauss3, gauss3)
+    AT_ONCE(pel_op_gradient_abs, gradient_abs)
+    AT_ONCE(pel_op_gradient, gradient)
+    AT_ONCE(pel_op_min, min3)
+    AT_ONCE(pel_op_max, max3)
+    return 0;
+}
+
+APART static int words_at_once(const pel_filter_config *c, const uint8_t *const rows[],
+                               uint16_t width, uint16_t count, const pel_filter_target *to)
+{
+    if (c->op_s16 == pel_op_sobel_x_s16) {
+        pel_i_row_sobel_x_rows(c->backend, rows, width, count, to->words, to->stride);
+        return 1;
+    }
+    if (c->op_s16 == pel_op_sobel_y_s16) {
+        pel_i_row_sobel_y_rows(c->backend, rows, width, count, to->words, to->stride);
+        return 1;
+    }
+    return 0;
+}
+
+/* `count` rows from y on, without their sides; rows: those around them, without the same. */
+APART static void filter_middles(const direct *d, const uint8_t *const rows[], uint16_t y,
+                                 uint16_t count)
 {
     const pel_filter *const f = d->filter;
     const int32_t r = f->radius, above = f->config.border == PEL_BORDER_VALID ? 0 : r;
     const uint16_t width = (uint16_t)(f->config.width - 2 * r);
     const ptrdiff_t place = y * d->dst.stride + above;
     pel_filter_target to = {d->dst.bytes ? d->dst.bytes + place : NULL,
-                            d->dst.words ? d->dst.words + place : NULL, 0};
-    const uint8_t *rows[5];
+                            d->dst.words ? d->dst.words + place : NULL, d->dst.stride};
 
-    for (int32_t k = 0; k <= 2 * r; k++) {
-        rows[k] = row_at(d, y + k - above) + r;
+    if (to.bytes ? bytes_at_once(&f->config, rows, width, count, &to)
+                 : words_at_once(&f->config, rows, width, count, &to)) {
+        return;
     }
-    for (;;) {
-        compute(d, rows, width, &to);
-        if (--count == 0) {
-            break;
-        }
-        for (int32_t k = 0; k < 2 * r; k++) {
-            rows[k] = rows[k + 1];
-        }
-        y++;
-        rows[2 * r] = row_at(d, y + 2 * r - above) + r;
-        to.bytes = to.bytes ? to.bytes + d->dst.stride : NULL;
-        to.words = to.words ? to.words + d->dst.stride : NULL;
+    for (unsigned i = 0; i < count; i++) {
+        compute(d, rows + i, width, &to);
+        to.bytes = to.bytes ? to.bytes + to.stride : NULL;
+        to.words = to.words ? to.words + to.stride : NULL;
     }
 }
 
@@ -90,6 +117,7 @@ typedef struct sides {
     uint8_t constant;
 } sides;
 
+/* r is 1 or 2. Bytes put together in a register: they are read at once, soon after. */
 static inline void put_record(const sides *s, const uint8_t *row, unsigned r, uint8_t *record)
 {
     const uint8_t *const last = row + s->width - 2 * r;
@@ -104,20 +132,19 @@ static inline void put_record(const sides *s, const uint8_t *row, unsigned r, ui
     }
 }
 
-static void put_records(const direct *d, uint16_t y, unsigned count)
+static void put_records(const direct *d, const uint8_t *const rows[], unsigned count)
 {
     const pel_filter *const f = d->filter;
     const sides s = {
         {f->left[0], f->left[1]}, {f->right[0], f->right[1]}, f->config.width, f->config.constant};
-    const int32_t r = f->radius, end = y + (int32_t)count + r;
     uint8_t *record = d->records;
 
-    for (int32_t row = y - r; row < end; row++) {
-        if (r == 1) { /* known sizes: no loops are left */
-            put_record(&s, row_at(d, row), 1, record);
+    for (unsigned i = 0; i < count; i++) {
+        if (f->radius == 1) { /* known sizes: no loops are left */
+            put_record(&s, rows[i] - 1, 1, record);
             record += 6;
         } else {
-            put_record(&s, row_at(d, row), 2, record);
+            put_record(&s, rows[i] - 2, 2, record);
             record += 12;
         }
     }
@@ -155,19 +182,20 @@ static void take_results(const direct *d, uint16_t y, unsigned count, const pel_
 }
 
 /* Both sides of `count` rows from y on. */
-APART static void filter_sides(const direct *d, uint16_t y, unsigned count)
+APART static void filter_sides(const direct *d, const uint8_t *const rows[], uint16_t y,
+                               unsigned count)
 {
     const unsigned r = d->filter->radius, record = 6 * r;
     uint8_t *const results = d->records + (d->rows_max + 2 * r) * record;
     const pel_filter_target to = {d->dst.bytes ? results : NULL,
                                   d->dst.words ? (int16_t *)(void *)results : NULL, 0};
-    const uint8_t *rows[5];
+    const uint8_t *long_rows[5];
 
     for (unsigned k = 0; k <= 2 * r; k++) {
-        rows[k] = d->records + k * record + r;
+        long_rows[k] = d->records + k * record + r;
     }
-    put_records(d, y, count);
-    compute(d, rows, (uint16_t)(count * record - 2 * r), &to);
+    put_records(d, rows, count + 2 * r);
+    compute(d, long_rows, (uint16_t)(count * record - 2 * r), &to);
     take_results(d, y, count, &to);
 }
 
@@ -190,6 +218,29 @@ static void lay_out(direct *d)
     d->rows_max = room / (18 * r) < ROWS_MAX ? room / (18 * r) : ROWS_MAX;
 }
 
+/* The rows around `count` results from y on, without their sides. */
+APART static void find_rows(const direct *d, int32_t y, int32_t count, const uint8_t *rows[])
+{
+    const int32_t r = d->filter->radius;
+    const int32_t top = d->filter->config.border == PEL_BORDER_VALID ? y : y - r;
+
+    for (int32_t k = 0; k < count + 2 * r; k++) {
+        rows[k] = row_at(d, top + k) + r;
+    }
+}
+
+/* `count` rows from y on. */
+APART static void filter_rows(const direct *d, unsigned y, unsigned count)
+{
+    const uint8_t *rows[ROWS_MAX + 4];
+
+    find_rows(d, (int32_t)y, (int32_t)count, rows);
+    filter_middles(d, rows, (uint16_t)y, (uint16_t)count);
+    if (d->filter->config.border != PEL_BORDER_VALID) {
+        filter_sides(d, rows, (uint16_t)y, count);
+    }
+}
+
 int pel_i_filter_direct(const pel_filter *f, const pel_cview *src, const pel_filter_target *dst)
 {
     direct d = {f, src, *dst, NULL, 0};
@@ -203,10 +254,7 @@ int pel_i_filter_direct(const pel_filter *f, const pel_cview *src, const pel_fil
     lay_out(&d);
     for (unsigned y = 0; y < rows; y += count) {
         count = rows - y < d.rows_max ? rows - y : d.rows_max;
-        filter_middles(&d, (uint16_t)y, count);
-        if (f->config.border != PEL_BORDER_VALID) {
-            filter_sides(&d, (uint16_t)y, count);
-        }
+        filter_rows(&d, y, count);
     }
     return 1;
 }

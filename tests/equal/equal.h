@@ -11,7 +11,7 @@ enum {
     EQUAL_PLANES = 5,      /* input rows at most */
     EQUAL_MARGIN = 8,      /* bytes that a kernel may read beside a row, as its neighbours */
     EQUAL_WIDTH_MAX = 640, /* pixels */
-    EQUAL_OUT_MAX = 5 * EQUAL_WIDTH_MAX + 64 /* bytes of result */
+    EQUAL_OUT_MAX = 6 * EQUAL_WIDTH_MAX + 64 /* bytes of result */
 };
 
 /* One run: rows of 4 bytes per pixel at most, all filled with the same kind of pattern. */
@@ -39,7 +39,8 @@ uint32_t equal_random(uint32_t *state);
 unsigned equal_frames(pel_backend backend, uint32_t seed, unsigned *failed);
 
 /* Whether the root that the kernels of x86 take in single precision, cut off, is the whole root of
- * every number that gx^2 + gy^2 can be. Elsewhere there is nothing to try. */
+ * every number that gx^2 + gy^2 can be, and the guessed one that of those of 16 bits. Elsewhere
+ * there is nothing to try. */
 int equal_roots_hold(void);
 
 #endif

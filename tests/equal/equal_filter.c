@@ -94,6 +94,55 @@ WORDS(sobel_y)
 WORDS(gradient_abs_s16)
 WORDS(gradient_s16)
 
+/* ---- Rows at once -------------------------------------------------------------------------- */
+
+#if defined(PEL_ROW_FILTER_X86)
+/* As many as the rows of a run give, side by side or, turned, from below to above with a gap. */
+enum { AT_ONCE = EQUAL_PLANES - 2, GAP = 3 };
+
+static size_t results_at_once(const equal_run *run)
+{
+    return (size_t)AT_ONCE * (run->width + (size_t)GAP);
+}
+
+#define AT_ONCE_BYTES(name)                                                                        \
+    static size_t name##_rows(pel_backend backend, const equal_run *run)                           \
+    {                                                                                              \
+        const ptrdiff_t stride = run->seed % 2 == 0 ? run->width : -(ptrdiff_t)run->width - GAP;   \
+        window w = window_of(run, 1);                                                              \
+        memset(run->out, 1, results_at_once(run));                                                 \
+        pel_i_row_##name##_rows(backend, w.rows, run->width, AT_ONCE,                              \
+                                run->out + (stride < 0 ? (1 - AT_ONCE) * stride : 0), stride);     \
+        drop(&w);                                                                                  \
+        return results_at_once(run);                                                               \
+    }
+#define AT_ONCE_WORDS(name)                                                                        \
+    static size_t name##_rows(pel_backend backend, const equal_run *run)                           \
+    {                                                                                              \
+        const size_t bytes = 2 * results_at_once(run);                                             \
+        int16_t *const words = malloc(bytes);                                                      \
+        window w = window_of(run, 1);                                                              \
+        if (!words) {                                                                              \
+            fputs("equal: out of memory\n", stderr);                                               \
+            exit(1);                                                                               \
+        }                                                                                          \
+        memset(words, 1, bytes);                                                                   \
+        pel_i_row_##name##_rows(backend, w.rows, run->width, AT_ONCE, words, run->width + GAP);    \
+        memcpy(run->out, words, bytes);                                                            \
+        free(words);                                                                               \
+        drop(&w);                                                                                  \
+        return bytes;                                                                              \
+    }
+
+AT_ONCE_BYTES(gauss3)
+AT_ONCE_BYTES(gradient_abs)
+AT_ONCE_BYTES(gradient)
+AT_ONCE_BYTES(min3)
+AT_ONCE_BYTES(max3)
+AT_ONCE_WORDS(sobel_x)
+AT_ONCE_WORDS(sobel_y)
+#endif
+
 /* ---- Kernels with taps --------------------------------------------------------------------- */
 
 typedef struct taps {
@@ -179,6 +228,23 @@ TAPS_WORDS(kernel5_s16, 2)
 #if defined(PEL_ROW_FILTER_X86)
 #include <emmintrin.h>
 
+/* The root of n that is guessed, or that of a guess that is wrong by as much as processors may. */
+static int32_t guessed(int32_t n, float wrong)
+{
+    const __m128 near = _mm_rcp_ps(_mm_rsqrt_ps(_mm_cvtepi32_ps(_mm_set1_epi32(n))));
+    const __m128 exact = _mm_sqrt_ps(_mm_cvtepi32_ps(_mm_set1_epi32(n)));
+    const __m128 guess = wrong == 0 ? near : _mm_mul_ps(exact, _mm_set1_ps(1 + wrong));
+    const int32_t root = _mm_cvtsi128_si32(_mm_cvttps_epi32(_mm_add_ps(guess, _mm_set1_ps(0.5F))));
+    return root - (root * root > n);
+}
+
+/* Both reciprocals: 3 / 8192 each. */
+static int guess_holds(int32_t n, int32_t root)
+{
+    const float wrong = 2 * 3.01F / 8192;
+    return guessed(n, 0) == root && guessed(n, wrong) == root && guessed(n, -wrong) == root;
+}
+
 int equal_roots_hold(void)
 {
     const int32_t most = 2 * 1020 * 1020; /* more than is reached */
@@ -187,7 +253,8 @@ int equal_roots_hold(void)
     for (int32_t n = 0; n <= most; n++) {
         const __m128 found = _mm_sqrt_ps(_mm_cvtepi32_ps(_mm_set1_epi32(n)));
         root += (root + 1) * (root + 1) == n;
-        if (_mm_cvtsi128_si32(_mm_cvttps_epi32(found)) != root) {
+        if (_mm_cvtsi128_si32(_mm_cvttps_epi32(found)) != root ||
+            (n < 65536 && !guess_holds(n, root))) {
             printf("wrong: the root of %ld\n", (long)n);
             return 0;
         }
@@ -219,4 +286,13 @@ const equal_kernel equal_filter_kernels[] = {{"gauss3", gauss3, 0},
                                              {"kernel3, 16 bits", kernel3_s16, 0},
                                              {"kernel5", kernel5, 0},
                                              {"kernel5, 16 bits", kernel5_s16, 0},
+#if defined(PEL_ROW_FILTER_X86)
+                                             {"gauss3, rows", gauss3_rows, 0},
+                                             {"sobel x, rows", sobel_x_rows, 0},
+                                             {"sobel y, rows", sobel_y_rows, 0},
+                                             {"gradient abs, rows", gradient_abs_rows, 0},
+                                             {"gradient, rows", gradient_rows, 0},
+                                             {"min3, rows", min3_rows, 0},
+                                             {"max3, rows", max3_rows, 0},
+#endif
                                              {NULL, NULL, 0}};

@@ -8,9 +8,10 @@
 enum { FRAMES = 1500, WIDTH_MAX = 260, HEIGHT_MAX = 40, GAP_MAX = 20, UNTOUCHED = 7 };
 
 static pel_filter_op *const ops[] = {
-    pel_op_gauss3,   pel_op_binomial5,    pel_op_median,   pel_op_min,
-    pel_op_gradient, pel_op_erode_labels, pel_op_majority, NULL};
-static pel_filter_op_s16 *const ops_s16[] = {pel_op_sobel_x_s16, pel_op_gradient_s16, NULL};
+    pel_op_gauss3,       pel_op_binomial5, pel_op_median, pel_op_min, pel_op_gradient,
+    pel_op_erode_labels, pel_op_majority,  NULL,          pel_op_max, pel_op_gradient_abs};
+static pel_filter_op_s16 *const ops_s16[] = {pel_op_sobel_x_s16, pel_op_sobel_y_s16,
+                                             pel_op_gradient_s16, NULL};
 static const char *const kernels[] = {"sharpen", "gauss5", "laplacian", "emboss"};
 
 #define PICK(table, state) table[equal_random(state) % (sizeof table / sizeof table[0])]

@@ -13,6 +13,9 @@
 #define MOVED(last, here, n)                                                                       \
     _mm256_alignr_epi8(here, _mm256_permute2x128_si256(last, here, 0x21), 16 - (n))
 #define EQUAL(a, b) _mm256_cmpeq_epi8(a, b)
+#define RECIPROCAL(a) _mm256_rcp_ps(a)
+#define RECIPROCAL_ROOT(a) _mm256_rsqrt_ps(a)
+#define PACKED(a, b) _mm256_packus_epi32(a, b)
 
 enum { LANES = PEL_ROW_LANES_AVX2 };
 typedef __m256i vec;
@@ -45,6 +48,7 @@ INLINE void store_words(int16_t *out, words results)
 
 #include "row/row_filter_template.h"
 #include "row/row_filter_taps_template.h"
+#include "row/row_filter_rows_template.h"
 
 #else
 typedef int nothing_here; /* an empty file is no C */

@@ -12,6 +12,9 @@
 #define BITS(operation) _mm512_##operation##_si512
 #define MOVED(last, here, n) _mm512_alignr_epi8(here, _mm512_alignr_epi64(here, last, 6), 16 - (n))
 #define EQUAL(a, b) _mm512_movm_epi8(_mm512_cmpeq_epi8_mask(a, b))
+#define RECIPROCAL(a) _mm512_rcp14_ps(a)
+#define RECIPROCAL_ROOT(a) _mm512_rsqrt14_ps(a)
+#define PACKED(a, b) _mm512_packus_epi32(a, b)
 
 enum { LANES = PEL_ROW_LANES_AVX512 };
 typedef __m512i vec;
@@ -38,6 +41,7 @@ INLINE void store_words(int16_t *out, words results)
 
 #include "row/row_filter_template.h"
 #include "row/row_filter_taps_template.h"
+#include "row/row_filter_rows_template.h"
 
 #else
 typedef int nothing_here; /* an empty file is no C */

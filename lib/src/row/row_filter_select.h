@@ -65,6 +65,28 @@ PEL_ROW_PLAIN(majority3, uint8_t)
 PEL_ROW_SELECT(erode_labels3, uint8_t, PEL_BEST(erode_labels3))
 PEL_ROW_SELECT(dilate_labels3, uint8_t, PEL_BEST(dilate_labels3))
 
+#if defined(PEL_ROW_FILTER_X86)
+/* pel_i_row_NAME_rows(backend, rows, count, height, out, stride) */
+#define PEL_ROW_SELECT_ROWS(name, pixel)                                                           \
+    static inline void pel_i_row_##name##_rows(pel_backend backend, const uint8_t *const rows[],   \
+                                               uint16_t count, uint16_t height, pixel *out,        \
+                                               ptrdiff_t stride)                                   \
+    {                                                                                              \
+        PEL_ROW_TRY(name##_rows, (rows, count, height, out, stride))                               \
+        for (unsigned y = 0; y < height; y++) {                                                    \
+            pel_row_##name(rows + y, count, out + (ptrdiff_t)y * stride);                          \
+        }                                                                                          \
+    }
+
+PEL_ROW_SELECT_ROWS(gauss3, uint8_t)
+PEL_ROW_SELECT_ROWS(sobel_x, int16_t)
+PEL_ROW_SELECT_ROWS(sobel_y, int16_t)
+PEL_ROW_SELECT_ROWS(gradient_abs, uint8_t)
+PEL_ROW_SELECT_ROWS(gradient, uint8_t)
+PEL_ROW_SELECT_ROWS(min3, uint8_t)
+PEL_ROW_SELECT_ROWS(max3, uint8_t)
+#endif
+
 /* pel_i_row_NAME(backend, rows, tap, scale, count, out) */
 #define PEL_ROW_SELECT_KERNEL(name, pixel, best)                                                   \
     static inline void pel_i_row_##name(pel_backend backend, const uint8_t *const rows[],          \

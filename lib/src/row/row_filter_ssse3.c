@@ -12,6 +12,9 @@
 #define BITS(operation) _mm_##operation##_si128
 #define MOVED(last, here, n) _mm_alignr_epi8(here, last, 16 - (n))
 #define EQUAL(a, b) _mm_cmpeq_epi8(a, b)
+#define RECIPROCAL(a) _mm_rcp_ps(a)
+#define RECIPROCAL_ROOT(a) _mm_rsqrt_ps(a)
+#define PACKED(a, b) packed(a, b)
 
 enum { LANES = PEL_ROW_LANES_SSSE3 };
 typedef __m128i vec;
@@ -38,8 +41,17 @@ INLINE void store_words(int16_t *out, words results)
     store_half(out + 8, results.high);
 }
 
+/* 32 bits as 16 without a sign, limited to them; a and b are not negative. */
+INLINE vec packed(vec a, vec b)
+{
+    const vec half = _mm_set1_epi32(32768);
+    const vec moved = _mm_packs_epi32(_mm_sub_epi32(a, half), _mm_sub_epi32(b, half));
+    return _mm_xor_si128(moved, _mm_set1_epi16(INT16_MIN));
+}
+
 #include "row/row_filter_template.h"
 #include "row/row_filter_taps_template.h"
+#include "row/row_filter_rows_template.h"
 
 #else
 typedef int nothing_here; /* an empty file is no C */

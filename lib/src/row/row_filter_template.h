@@ -6,6 +6,8 @@
  *     everywhere(bytes)        16 bytes in every 16 of a vector
  *     MOVED(last, here, n)     what lies n bytes before `here` if `last` lies before it
  *     EQUAL(a, b)              bytes that are equal become 255, others 0
+ *     RECIPROCAL(a), RECIPROCAL_ROOT(a)    in single precision, nearly
+ *     PACKED(a, b)             32 bits limited to 16 without a sign
  *     words, store_words       results of 16 bits, as unpacking bytes leaves them
  *     ISA, INLINE, KERNEL      for what a function is compiled, what it is called
  *     OWN_PRODUCTS             defined: the file brings what is made of products, because its
