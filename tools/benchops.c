@@ -26,6 +26,16 @@
         name_, summary_, BENCH_##form_, 0, benchruns_start_##start_, benchruns_##run_, NULL, NULL, \
             NULL, NULL, NULL, 0, fits_                                                             \
     }
+#define POINT(name_, summary_, form_, start_, run_, fits_)                                         \
+    {                                                                                              \
+        name_, summary_, BENCH_##form_, 1, benchruns_start_##start_, benchruns_##run_, NULL, NULL, \
+            NULL, NULL, NULL, 0, fits_                                                             \
+    }
+#define POINT_OF(name_, summary_, work_, choice_, fits_)                                           \
+    {                                                                                              \
+        name_, summary_, BENCH_GRAY, 1, benchruns_start_##work_, benchruns_##work_, NULL, NULL,    \
+            NULL, NULL, NULL, choice_, fits_                                                       \
+    }
 #define CHOSEN(name_, summary_, work_, choice_, fits_)                                             \
     {                                                                                              \
         name_, summary_, BENCH_GRAY, 0, benchruns_start_##work_, benchruns_##work_, NULL, NULL,    \
@@ -65,7 +75,7 @@ const bench_op bench_ops[] = {
     JOB("ycbcr", "R G B to Y U V", RGB, three, ycbcr, WITHIN(1)),
     JOB("hsv", "R G B to H S V", RGB, three, hsv, HSV),
     JOB("nrgb", "R G B to their shares of the sum", RGB, three, nrgb, ALONE),
-    JOB("white-balance", "R G B times three gains", RGB, three, white_balance, ALONE),
+    POINT("white-balance", "R G B times three gains", RGB, three, white_balance, ALONE),
     FILTER("gauss3", "3x3 Gaussian", GRAY, gauss3, SAME),
     FILTER("box3", "3x3 mean", GRAY, box3, SAME),
     FILTER("binomial5", "5x5 binomial", GRAY, binomial5, SAME),
@@ -87,24 +97,24 @@ const bench_op bench_ops[] = {
     FILTER("majority", "most frequent label of nine", LABELS, majority, ALONE),
     FILTER("erode-labels", "the label if all nine are it", LABELS, erode_labels, ALONE),
     FILTER("dilate-labels", "labels grow into what has none", LABELS, dilate_labels, ALONE),
-    JOB("threshold", "over 127 or not", GRAY, threshold, table, SAME),
-    JOB("table", "256 entries: gamma", GRAY, gamma, table, SAME),
-    JOB("histogram", "how often each value occurs", GRAY, histogram, histogram, SAME),
-    JOB("equalize", "histogram, table, applied", GRAY, gray, equalize, WITHIN(1)),
-    JOB("adaptive", "over the 15x15 mean minus 5", GRAY, adaptive, adaptive, SAME),
-    JOB("integral", "sums from the top left corner", GRAY, integral, integral, SAME),
-    CHOSEN("add", "two pictures: sum, at most 255", combine, PEL_COMBINE_ADD, SAME),
-    CHOSEN("subtract", "difference, at least 0", combine, PEL_COMBINE_SUBTRACT, SAME),
-    CHOSEN("absdiff", "size of the difference", combine, PEL_COMBINE_ABSDIFF, SAME),
-    CHOSEN("smaller", "the smaller of each two", combine, PEL_COMBINE_MIN, SAME),
-    CHOSEN("larger", "the larger of each two", combine, PEL_COMBINE_MAX, SAME),
-    CHOSEN("and", "bits of both", combine, PEL_COMBINE_AND, SAME),
-    CHOSEN("or", "bits of one or both", combine, PEL_COMBINE_OR, SAME),
-    CHOSEN("xor", "bits of one of them", combine, PEL_COMBINE_XOR, SAME),
-    JOB("blend", "a quarter of one, the rest of another", GRAY, gray, blend, WITHIN(1)),
-    CHOSEN("resize", "bilinear, to 5/8", resize, PEL_RESIZE_BILINEAR, WITHIN(1)),
-    CHOSEN("resize-box", "means of 2x2", resize, PEL_RESIZE_BOX, SAME),
-    CHOSEN("resize-nearest", "one of the pixels, to 5/8", resize, PEL_RESIZE_NEAREST, SAME),
+    POINT("threshold", "over 127 or not", GRAY, threshold, table, SAME),
+    POINT("table", "256 entries: gamma", GRAY, gamma, table, SAME),
+    POINT("histogram", "how often each value occurs", GRAY, histogram, histogram, SAME),
+    POINT("equalize", "histogram, table, applied", GRAY, gray, equalize, WITHIN(1)),
+    POINT("adaptive", "over the 15x15 mean minus 5", GRAY, adaptive, adaptive, SAME),
+    POINT("integral", "sums from the top left corner", GRAY, integral, integral, SAME),
+    POINT_OF("add", "two pictures: sum, at most 255", combine, PEL_COMBINE_ADD, SAME),
+    POINT_OF("subtract", "difference, at least 0", combine, PEL_COMBINE_SUBTRACT, SAME),
+    POINT_OF("absdiff", "size of the difference", combine, PEL_COMBINE_ABSDIFF, SAME),
+    POINT_OF("smaller", "the smaller of each two", combine, PEL_COMBINE_MIN, SAME),
+    POINT_OF("larger", "the larger of each two", combine, PEL_COMBINE_MAX, SAME),
+    POINT_OF("and", "bits of both", combine, PEL_COMBINE_AND, SAME),
+    POINT_OF("or", "bits of one or both", combine, PEL_COMBINE_OR, SAME),
+    POINT_OF("xor", "bits of one of them", combine, PEL_COMBINE_XOR, SAME),
+    POINT("blend", "a quarter of one, the rest of another", GRAY, gray, blend, WITHIN(1)),
+    POINT_OF("resize", "bilinear, to 5/8", resize, PEL_RESIZE_BILINEAR, WITHIN(1)),
+    POINT_OF("resize-box", "means of 2x2", resize, PEL_RESIZE_BOX, SAME),
+    POINT_OF("resize-nearest", "one of the pixels, to 5/8", resize, PEL_RESIZE_NEAREST, SAME),
     CHOSEN("harris", "Harris responses", responses, PEL_CORNERS_HARRIS, RESPONSES),
     CHOSEN("shi-tomasi", "Shi-Tomasi responses", responses, PEL_CORNERS_SHI_TOMASI, RESPONSES),
     CHOSEN("fast", "FAST-9 responses", responses, PEL_CORNERS_FAST9, ALONE),

@@ -192,7 +192,7 @@ pel_status benchruns_nrgb(bench_job *job)
 pel_status benchruns_white_balance(bench_job *job)
 {
     static const uint16_t gains_q8[3] = {300, 256, 200};
-    return pel_white_balance_frame(gains_q8, &job->in, &job->out_view);
+    return pel_white_balance_frame_with(gains_q8, &job->in, &job->out_view, job->backend);
 }
 
 /* ---- Filters ------------------------------------------------------------------------------- */
@@ -248,12 +248,12 @@ int benchruns_start_gamma(bench_job *job)
 
 pel_status benchruns_table(bench_job *job)
 {
-    return pel_table_frame(job->table, &job->in, &job->out_view);
+    return pel_table_frame_with(job->table, &job->in, &job->out_view, job->backend);
 }
 
 pel_status benchruns_equalize(bench_job *job)
 {
-    pel_status status = pel_histogram_frame(&job->in, 0, job->bins);
+    pel_status status = pel_histogram_frame_with(&job->in, 0, job->bins, job->backend);
     if (status == PEL_OK) {
         status = pel_table_equalize(job->bins, job->table);
     }
@@ -269,13 +269,14 @@ int benchruns_start_combine(bench_job *job)
 pel_status benchruns_combine(bench_job *job)
 {
     const pel_cview turned = pel_view_to_read(&job->picture->turned.view);
-    return pel_combine_frame((pel_combine_op)job->op->choice, &job->in, &turned, &job->out_view);
+    return pel_combine_frame_with((pel_combine_op)job->op->choice, &job->in, &turned,
+                                  &job->out_view, job->backend);
 }
 
 pel_status benchruns_blend(bench_job *job)
 {
     const pel_cview turned = pel_view_to_read(&job->picture->turned.view);
-    return pel_blend_frame(64, &job->in, &turned, &job->out_view);
+    return pel_blend_frame_with(64, &job->in, &turned, &job->out_view, job->backend);
 }
 
 int benchruns_start_adaptive(bench_job *job)
@@ -283,6 +284,7 @@ int benchruns_start_adaptive(bench_job *job)
     enum { RADIUS = 7, C = 5 };
     job->adaptive.radius = RADIUS;
     job->adaptive.c = C;
+    job->adaptive.backend = job->backend;
     job->adaptive.work_bytes = PEL_ADAPTIVE_BYTES(job->in.width, RADIUS);
     job->adaptive.work = benchops_take(job, job->adaptive.work_bytes);
     return job->adaptive.work ? benchruns_start_gray(job) : -1;
@@ -301,6 +303,7 @@ int benchruns_start_resize(bench_job *job)
     const unsigned height = is_box ? job->in.height / 2u : job->in.height * 5u / 8u;
     config->method = (pel_resize_method)job->op->choice;
     config->channels = 1;
+    config->backend = job->backend;
     config->width_in = job->in.width;
     config->height_in = job->in.height;
     config->width_out = (uint16_t)width;
@@ -322,7 +325,7 @@ int benchruns_start_histogram(bench_job *job)
 
 pel_status benchruns_histogram(bench_job *job)
 {
-    return pel_histogram_frame(&job->in, 0, (uint32_t *)(void *)job->out);
+    return pel_histogram_frame_with(&job->in, 0, (uint32_t *)(void *)job->out, job->backend);
 }
 
 int benchruns_start_integral(bench_job *job)
@@ -333,7 +336,8 @@ int benchruns_start_integral(bench_job *job)
 
 pel_status benchruns_integral(bench_job *job)
 {
-    return pel_integral_frame(&job->in, (uint32_t *)(void *)job->out, job->in.width + 1u);
+    return pel_integral_frame_with(&job->in, (uint32_t *)(void *)job->out, job->in.width + 1u,
+                                   job->backend);
 }
 
 /* ---- Features ------------------------------------------------------------------------------ */

@@ -3,7 +3,7 @@
 
 #include "frames.h"
 #include "overlap.h"
-#include "row/row_point.h"
+#include "row/row_point_select.h"
 
 enum { IDLE, RUNNING };
 
@@ -47,6 +47,7 @@ pel_status pel_adaptive_begin(pel_adaptive *adaptive, const pel_adaptive_config 
         return status;
     }
     adaptive->config = *config;
+    adaptive->config.backend = pel_i_row_backend(config->backend);
     adaptive->pushed = 0;
     adaptive->row = 0;
     adaptive->state = RUNNING;
@@ -94,11 +95,9 @@ pel_status pel_adaptive_push(pel_adaptive *adaptive, const uint8_t *row)
     }
     y = adaptive->pushed;
     slot = slot_of(adaptive, y);
-    for (uint16_t x = 0; x < adaptive->config.width; x++) {
-        slot[x] = row[x];
-    }
-    pel_row_columns_add(slot, adaptive->config.width, times_entering(adaptive, y),
-                        columns_of(adaptive));
+    pel_i_row_copy(adaptive->config.backend, row, adaptive->config.width, slot);
+    pel_i_row_columns_add(adaptive->config.backend, slot, adaptive->config.width,
+                          times_entering(adaptive, y), columns_of(adaptive));
     adaptive->pushed++;
     return PEL_OK;
 }
@@ -109,10 +108,11 @@ static void move_window(const pel_adaptive *a, uint16_t y)
     const pel_adaptive_config *c = &a->config;
     const uint16_t last = (uint16_t)(c->height - 1);
 
-    pel_row_columns_subtract(slot_of(a, y > c->radius ? (uint16_t)(y - c->radius) : 0), c->width,
-                             columns_of(a));
+    pel_i_row_columns_subtract(c->backend,
+                               slot_of(a, y > c->radius ? (uint16_t)(y - c->radius) : 0), c->width,
+                               columns_of(a));
     if ((uint32_t)y + 1 + c->radius > last) {
-        pel_row_columns_add(slot_of(a, last), c->width, 1, columns_of(a));
+        pel_i_row_columns_add(c->backend, slot_of(a, last), c->width, 1, columns_of(a));
     }
 }
 
@@ -129,7 +129,8 @@ pel_status pel_adaptive_pull(pel_adaptive *adaptive, uint8_t *out)
     }
     c = &adaptive->config;
     y = adaptive->row;
-    pel_row_over_mean(slot_of(adaptive, y), columns_of(adaptive), c->width, c->radius, c->c, out);
+    pel_i_row_over_mean(c->backend, slot_of(adaptive, y), columns_of(adaptive), c->width, c->radius,
+                        c->c, out);
     adaptive->row++;
     if (adaptive->row < c->height) {
         move_window(adaptive, y);

@@ -61,21 +61,27 @@ static pel_status check_three(const pel_cview *a, const pel_cview *b, const pel_
     return status != PEL_OK ? status : pel_i_check_pair(b, dst);
 }
 
-pel_status pel_combine_frame(pel_combine_op op, const pel_cview *a, const pel_cview *b,
-                             const pel_view *dst)
+pel_status pel_combine_frame_with(pel_combine_op op, const pel_cview *a, const pel_cview *b,
+                                  const pel_view *dst, pel_backend backend)
 {
     const pel_status status = is_op(op) ? check_three(a, b, dst) : PEL_ERR_ARG;
-    const pel_backend backend = pel_i_row_backend(PEL_BACKEND_AUTO);
     uint16_t count;
 
     if (status != PEL_OK) {
         return status;
     }
+    backend = pel_i_row_backend(backend);
     count = (uint16_t)pel_row_bytes(dst->format, dst->width);
     for (uint16_t y = 0; y < dst->height; y++) {
         combine(backend, op, pel_i_row(a, y), pel_i_row(b, y), count, pel_i_row_to_write(dst, y));
     }
     return PEL_OK;
+}
+
+pel_status pel_combine_frame(pel_combine_op op, const pel_cview *a, const pel_cview *b,
+                             const pel_view *dst)
+{
+    return pel_combine_frame_with(op, a, b, dst, PEL_BACKEND_AUTO);
 }
 
 pel_status pel_blend_row(uint16_t alpha_q8, const uint8_t *a, const uint8_t *b, uint16_t count,
@@ -88,22 +94,28 @@ pel_status pel_blend_row(uint16_t alpha_q8, const uint8_t *a, const uint8_t *b, 
     return PEL_OK;
 }
 
-pel_status pel_blend_frame(uint16_t alpha_q8, const pel_cview *a, const pel_cview *b,
-                           const pel_view *dst)
+pel_status pel_blend_frame_with(uint16_t alpha_q8, const pel_cview *a, const pel_cview *b,
+                                const pel_view *dst, pel_backend backend)
 {
     const pel_status status = alpha_q8 <= 256 ? check_three(a, b, dst) : PEL_ERR_ARG;
-    const pel_backend backend = pel_i_row_backend(PEL_BACKEND_AUTO);
     uint16_t count;
 
     if (status != PEL_OK) {
         return status;
     }
+    backend = pel_i_row_backend(backend);
     count = (uint16_t)pel_row_bytes(dst->format, dst->width);
     for (uint16_t y = 0; y < dst->height; y++) {
         pel_i_row_blend(backend, pel_i_row(a, y), pel_i_row(b, y), alpha_q8, count,
                         pel_i_row_to_write(dst, y));
     }
     return PEL_OK;
+}
+
+pel_status pel_blend_frame(uint16_t alpha_q8, const pel_cview *a, const pel_cview *b,
+                           const pel_view *dst)
+{
+    return pel_blend_frame_with(alpha_q8, a, b, dst, PEL_BACKEND_AUTO);
 }
 
 /* ---- Integral rows ------------------------------------------------------------------------- */
@@ -119,7 +131,7 @@ pel_status pel_integral_row(const uint8_t *src, uint16_t width, const uint32_t *
     }
     sums[0] = 0;
     if (above) {
-        pel_row_integral(src, width, above + 1, sums + 1);
+        pel_i_row_integral(pel_i_row_backend(PEL_BACKEND_AUTO), src, width, above + 1, sums + 1);
         return PEL_OK;
     }
     for (uint16_t x = 1; x <= width; x++) {
@@ -128,7 +140,8 @@ pel_status pel_integral_row(const uint8_t *src, uint16_t width, const uint32_t *
     return PEL_OK;
 }
 
-pel_status pel_integral_frame(const pel_cview *src, uint32_t *sums, uint32_t stride)
+pel_status pel_integral_frame_with(const pel_cview *src, uint32_t *sums, uint32_t stride,
+                                   pel_backend backend)
 {
     const pel_status status = sums ? pel_i_check_bytes(src, 1) : PEL_ERR_ARG;
     const uint32_t *above = sums;
@@ -142,13 +155,20 @@ pel_status pel_integral_frame(const pel_cview *src, uint32_t *sums, uint32_t str
     if (stride < (uint32_t)src->width + 1) {
         return PEL_ERR_SPACE;
     }
+    backend = pel_i_row_backend(backend);
     (void)pel_integral_row(NULL, src->width, NULL, sums);
     for (uint16_t y = 0; y < src->height; y++) {
         sums += stride;
-        (void)pel_integral_row(pel_i_row(src, y), src->width, above, sums);
+        sums[0] = 0;
+        pel_i_row_integral(backend, pel_i_row(src, y), src->width, above + 1, sums + 1);
         above = sums;
     }
     return PEL_OK;
+}
+
+pel_status pel_integral_frame(const pel_cview *src, uint32_t *sums, uint32_t stride)
+{
+    return pel_integral_frame_with(src, sums, stride, PEL_BACKEND_AUTO);
 }
 
 uint32_t pel_integral_box(const uint32_t *top, const uint32_t *bottom, uint16_t x0, uint16_t x1)
@@ -241,12 +261,12 @@ pel_status pel_white_balance_row(const uint16_t gains_q8[3], const uint8_t *rgb,
     if (!gains_q8 || !rgb || !dst) {
         return PEL_ERR_ARG;
     }
-    pel_row_gain3(rgb, width, gains_q8, dst);
+    pel_i_row_gain3(pel_i_row_backend(PEL_BACKEND_AUTO), rgb, width, gains_q8, dst);
     return PEL_OK;
 }
 
-pel_status pel_white_balance_frame(const uint16_t gains_q8[3], const pel_cview *src,
-                                   const pel_view *dst)
+pel_status pel_white_balance_frame_with(const uint16_t gains_q8[3], const pel_cview *src,
+                                        const pel_view *dst, pel_backend backend)
 {
     pel_status status = gains_q8 ? pel_i_check_bytes(src, 3) : PEL_ERR_ARG;
     uint16_t in_order[3];
@@ -260,8 +280,16 @@ pel_status pel_white_balance_frame(const uint16_t gains_q8[3], const pel_cview *
     for (unsigned c = 0; c < 3; c++) {
         in_order[c] = gains_q8[is_blue_first(src->format) ? 2 - c : c];
     }
+    backend = pel_i_row_backend(backend);
     for (uint16_t y = 0; y < src->height; y++) {
-        pel_row_gain3(pel_i_row(src, y), src->width, in_order, pel_i_row_to_write(dst, y));
+        pel_i_row_gain3(backend, pel_i_row(src, y), src->width, in_order,
+                        pel_i_row_to_write(dst, y));
     }
     return PEL_OK;
+}
+
+pel_status pel_white_balance_frame(const uint16_t gains_q8[3], const pel_cview *src,
+                                   const pel_view *dst)
+{
+    return pel_white_balance_frame_with(gains_q8, src, dst, PEL_BACKEND_AUTO);
 }

@@ -3,7 +3,7 @@
 
 #include "frames.h"
 #include "overlap.h"
-#include "row/row_point.h"
+#include "row/row_point_select.h"
 
 enum { IDLE, RUNNING };
 
@@ -135,6 +135,7 @@ pel_status pel_resize_begin(pel_resize *resize, const pel_resize_config *config)
         return status;
     }
     resize->config = *config;
+    resize->config.backend = pel_i_row_backend(config->backend);
     resize->pushed = 0;
     resize->row = 0;
     resize->state = RUNNING;
@@ -151,11 +152,8 @@ pel_status pel_resize_begin(pel_resize *resize, const pel_resize_config *config)
 static void keep_row(const pel_resize *r, const uint8_t *row)
 {
     const uint16_t count = (uint16_t)(r->config.width_in * channels_of(&r->config));
-    uint8_t *kept = kept_row(r, r->pushed);
 
-    for (uint16_t i = 0; i < count; i++) {
-        kept[i] = row[i];
-    }
+    pel_i_row_copy(r->config.backend, row, count, kept_row(r, r->pushed));
 }
 
 static void add_row(const pel_resize *r, const uint8_t *row)
@@ -168,7 +166,8 @@ static void add_row(const pel_resize *r, const uint8_t *row)
             sums_of(r)[i] = 0;
         }
     }
-    pel_row_box_add(row, c->width_in / c->width_out, channels_of(c), c->width_out, sums_of(r));
+    pel_i_row_box_add(c->backend, row, c->width_in / c->width_out, channels_of(c), c->width_out,
+                      sums_of(r));
 }
 
 pel_status pel_resize_push(pel_resize *resize, const uint8_t *row)
@@ -195,7 +194,8 @@ static void pull_box(const pel_resize *r, uint8_t *out)
     const uint32_t area =
         (uint32_t)(c->width_in / c->width_out) * (uint32_t)(c->height_in / c->height_out);
 
-    pel_row_box_mean(sums_of(r), area, (uint16_t)(c->width_out * channels_of(c)), out);
+    pel_i_row_box_mean(c->backend, sums_of(r), area, (uint16_t)(c->width_out * channels_of(c)),
+                       out);
 }
 
 static void pull_bilinear(const pel_resize *r, uint8_t *out)
@@ -209,7 +209,7 @@ static void pull_bilinear(const pel_resize *r, uint8_t *out)
     rows.lower = kept_row(r, below);
     rows.last = (uint16_t)(c->width_in - 1);
     rows.weight = place.weight;
-    pel_row_bilinear(&rows, places_of(r), channels_of(c), c->width_out, out);
+    pel_i_row_bilinear(c->backend, &rows, places_of(r), channels_of(c), c->width_out, out);
 }
 
 pel_status pel_resize_pull(pel_resize *resize, uint8_t *out)

@@ -3,7 +3,7 @@
 
 #include "frames.h"
 #include "point_wide.h"
-#include "row/row_point.h"
+#include "row/row_point_select.h"
 
 /* The most values a histogram may have: the bounds below count on it. */
 #define VALUES_MAX ((uint32_t)PEL_SIDE_MAX * PEL_SIDE_MAX) /* 2^26 */
@@ -13,11 +13,12 @@ pel_status pel_histogram_row(const uint8_t *src, unsigned step, uint16_t count, 
     if (!src || !bins || step == 0) {
         return PEL_ERR_ARG;
     }
-    pel_row_histogram(src, step, count, bins);
+    pel_i_row_histogram(pel_i_row_backend(PEL_BACKEND_AUTO), src, step, count, bins);
     return PEL_OK;
 }
 
-pel_status pel_histogram_frame(const pel_cview *src, unsigned channel, uint32_t bins[256])
+pel_status pel_histogram_frame_with(const pel_cview *src, unsigned channel, uint32_t bins[256],
+                                    pel_backend backend)
 {
     const pel_status status = bins ? pel_i_check_bytes(src, 0) : PEL_ERR_ARG;
     unsigned channels;
@@ -32,10 +33,16 @@ pel_status pel_histogram_frame(const pel_cview *src, unsigned channel, uint32_t 
     for (unsigned i = 0; i < 256; i++) {
         bins[i] = 0;
     }
+    backend = pel_i_row_backend(backend);
     for (uint16_t y = 0; y < src->height; y++) {
-        pel_row_histogram(pel_i_row(src, y) + channel, channels, src->width, bins);
+        pel_i_row_histogram(backend, pel_i_row(src, y) + channel, channels, src->width, bins);
     }
     return PEL_OK;
+}
+
+pel_status pel_histogram_frame(const pel_cview *src, unsigned channel, uint32_t bins[256])
+{
+    return pel_histogram_frame_with(src, channel, bins, PEL_BACKEND_AUTO);
 }
 
 pel_status pel_histogram_cumulative(const uint32_t bins[256], uint32_t cumulative[256])

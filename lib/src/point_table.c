@@ -4,7 +4,7 @@
 #include "pel/fixed.h"
 #include "frames.h"
 #include "point_wide.h"
-#include "row/row.h"
+#include "row/row_point_select.h"
 
 pel_status pel_table_linear(int32_t alpha, int32_t beta, int32_t divisor, uint8_t table[256])
 {
@@ -137,24 +137,38 @@ pel_status pel_table_gamma_darken(unsigned numerator, unsigned denominator, uint
 
 pel_status pel_table_row(const uint8_t table[256], const uint8_t *src, uint16_t count, uint8_t *dst)
 {
+    pel_backend backend;
+    pel_row_curve curve;
+
     if (!table || !src || !dst) {
         return PEL_ERR_ARG;
     }
-    pel_row_map(src, count, table, dst);
+    backend = pel_i_row_backend(PEL_BACKEND_AUTO);
+    curve = pel_i_row_curve(backend, table, count);
+    pel_i_row_map(backend, &curve, src, count, dst);
     return PEL_OK;
 }
 
-pel_status pel_table_frame(const uint8_t table[256], const pel_cview *src, const pel_view *dst)
+pel_status pel_table_frame_with(const uint8_t table[256], const pel_cview *src, const pel_view *dst,
+                                pel_backend backend)
 {
     const pel_status status = table ? pel_i_check_pair(src, dst) : PEL_ERR_ARG;
+    pel_row_curve curve;
     uint16_t count;
 
     if (status != PEL_OK) {
         return status;
     }
     count = (uint16_t)pel_row_bytes(src->format, src->width);
+    backend = pel_i_row_backend(backend);
+    curve = pel_i_row_curve(backend, table, (uint32_t)count * src->height);
     for (uint16_t y = 0; y < src->height; y++) {
-        pel_row_map(pel_i_row(src, y), count, table, pel_i_row_to_write(dst, y));
+        pel_i_row_map(backend, &curve, pel_i_row(src, y), count, pel_i_row_to_write(dst, y));
     }
     return PEL_OK;
+}
+
+pel_status pel_table_frame(const uint8_t table[256], const pel_cview *src, const pel_view *dst)
+{
+    return pel_table_frame_with(table, src, dst, PEL_BACKEND_AUTO);
 }

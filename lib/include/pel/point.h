@@ -13,10 +13,14 @@
  * Statuses that all functions share: PEL_ERR_ARG for a null pointer or a value outside its stated
  * range; the frame forms also those of pel_cview_check, and PEL_ERR_SPACE for a destination of
  * another size or PEL_ERR_FORMAT for one of another format than the source.
+ *
+ * Everything runs on the best backend that there is (pel/backend.h). Objects have a field in their
+ * config to choose another one; pel_..._frame_with is pel_..._frame on a backend of choice.
  */
 #ifndef PEL_POINT_H
 #define PEL_POINT_H
 
+#include "pel/backend.h"
 #include "pel/image.h"
 
 #ifdef __cplusplus
@@ -76,6 +80,8 @@ pel_status pel_table_row(const uint8_t table[256], const uint8_t *src, uint16_t 
 
 /* The same for a frame of a byte format, on every channel. In place. */
 pel_status pel_table_frame(const uint8_t table[256], const pel_cview *src, const pel_view *dst);
+pel_status pel_table_frame_with(const uint8_t table[256], const pel_cview *src, const pel_view *dst,
+                                pel_backend backend);
 
 /* ---- Histograms ---------------------------------------------------------------------------- */
 
@@ -92,6 +98,8 @@ pel_status pel_histogram_row(const uint8_t *src, unsigned step, uint16_t count, 
 /* The histogram of one channel of a frame of a byte format (a clean one: `bins` is set to 0 first).
  * channel: 0 for GRAY8; 0..2 in the order of the bytes for RGB888 and BGR888. */
 pel_status pel_histogram_frame(const pel_cview *src, unsigned channel, uint32_t bins[256]);
+pel_status pel_histogram_frame_with(const pel_cview *src, unsigned channel, uint32_t bins[256],
+                                    pel_backend backend);
 
 /* cumulative[i] = bins[0] + ... + bins[i]. May be the same array. */
 pel_status pel_histogram_cumulative(const uint32_t bins[256], uint32_t cumulative[256]);
@@ -146,12 +154,16 @@ pel_status pel_combine_row(pel_combine_op op, const uint8_t *a, const uint8_t *b
                            uint8_t *dst);
 pel_status pel_combine_frame(pel_combine_op op, const pel_cview *a, const pel_cview *b,
                              const pel_view *dst);
+pel_status pel_combine_frame_with(pel_combine_op op, const pel_cview *a, const pel_cview *b,
+                                  const pel_view *dst, pel_backend backend);
 
 /* dst[i] = round((a[i] * alpha + b[i] * (256 - alpha)) / 256); alpha_q8: 0..256. In place too. */
 pel_status pel_blend_row(uint16_t alpha_q8, const uint8_t *a, const uint8_t *b, uint16_t count,
                          uint8_t *dst);
 pel_status pel_blend_frame(uint16_t alpha_q8, const pel_cview *a, const pel_cview *b,
                            const pel_view *dst);
+pel_status pel_blend_frame_with(uint16_t alpha_q8, const pel_cview *a, const pel_cview *b,
+                                const pel_view *dst, pel_backend backend);
 
 /* ---- Integral rows ------------------------------------------------------------------------- */
 
@@ -174,6 +186,8 @@ pel_status pel_integral_row(const uint8_t *src, uint16_t width, const uint32_t *
 /* All H + 1 rows of a GRAY8 frame; row y begins at sums + y * stride (in elements, at least W + 1,
  * otherwise PEL_ERR_SPACE). PEL_ERR_RANGE: more than PEL_INTEGRAL_PIXELS_MAX pixels. */
 pel_status pel_integral_frame(const pel_cview *src, uint32_t *sums, uint32_t stride);
+pel_status pel_integral_frame_with(const pel_cview *src, uint32_t *sums, uint32_t stride,
+                                   pel_backend backend);
 
 /* The sum of the pixels x0 <= x < x1, y0 <= y < y1, from the rows y0 (top) and y1 (bottom) of sums.
  * Not checked. */
@@ -203,6 +217,7 @@ typedef struct pel_adaptive_config {
     int16_t c;              /* -255..255 */
     void *work;             /* aligned for uint16_t; in use until the last row is pulled */
     size_t work_bytes;      /* at least PEL_ADAPTIVE_BYTES(width, radius) */
+    pel_backend backend;    /* 0 = the best that there is; results are the same */
 } pel_adaptive_config;
 
 /* An adaptive threshold at work. The caller places it (under 64 bytes); private but for `row`. */
@@ -274,6 +289,7 @@ typedef struct pel_resize_config {
     uint16_t width_out, height_out; /* 1..PEL_SIDE_MAX */
     void *work;                     /* aligned for uint32_t; in use until the last row is pulled */
     size_t work_bytes;
+    pel_backend backend; /* 0 = the best that there is; results are the same */
 } pel_resize_config;
 
 uint32_t pel_resize_bytes(const pel_resize_config *config);
@@ -339,6 +355,8 @@ pel_status pel_white_balance_row(const uint16_t gains_q8[3], const uint8_t *rgb,
 /* The same for an RGB888 or BGR888 frame (the gains are R, G, B for both). In place. */
 pel_status pel_white_balance_frame(const uint16_t gains_q8[3], const pel_cview *src,
                                    const pel_view *dst);
+pel_status pel_white_balance_frame_with(const uint16_t gains_q8[3], const pel_cview *src,
+                                        const pel_view *dst, pel_backend backend);
 
 #ifdef __cplusplus
 }

@@ -28,6 +28,7 @@ uint16_t pel_row_classify_runs_neon(const uint8_t *nibbles, const pel_row_boxes 
 
 PEL_ROW_FILTERS(neon);
 PEL_ROW_POINTS(neon);
+void pel_row_map_neon(const uint8_t *src, uint16_t count, const uint8_t *table, uint8_t *dst);
 #endif
 
 #endif

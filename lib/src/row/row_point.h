@@ -57,9 +57,16 @@ typedef struct pel_row_between {
     uint16_t weight;
 } pel_row_between;
 
-/* The bilinear mean of four pixels, `count` times; see point.h. */
+/* The bilinear mean of four pixels, `count` times, from left to right; see point.h. */
 void pel_row_bilinear(const pel_row_between *rows, const pel_row_place *places, uint8_t channels,
                       uint16_t count, uint8_t *dst);
+
+/* A table of 256 entries, and whether it is a step: table[0] for 0 .. last_low, table[255] for the
+ * rest. */
+typedef struct pel_row_curve {
+    const uint8_t *table;
+    uint8_t is_step, last_low;
+} pel_row_curve;
 
 /* sums[c] += channel c of `count` pixels of three bytes; at most 65535 * 255 < 2^24. */
 void pel_row_sum3(const uint8_t *src, uint16_t count, uint32_t sums[3]);

@@ -10,7 +10,140 @@
 
 enum { LANES = PEL_ROW_LANES_NEON };
 
+/* ---- More words of x86 --------------------------------------------------------------------- */
+
+INLINE vec neon_andnot(vec a, vec b)
+{
+    return vbicq_u8(b, a);
+}
+
+INLINE vec neon_subs_epu16(vec a, vec b)
+{
+    return of_u16(vqsubq_u16(as_u16(a), as_u16(b)));
+}
+
+INLINE vec neon_sub_epi32(vec a, vec b)
+{
+    return of_u32(vsubq_u32(as_u32(a), as_u32(b)));
+}
+
+INLINE vec neon_cmpgt_epi32(vec a, vec b)
+{
+    return of_u32(vcgtq_s32(as_s32(a), as_s32(b)));
+}
+
+INLINE vec neon_slli_epi32(vec v, int bits)
+{
+    return of_u32(as_u32(v) << (uint32_t)bits);
+}
+
+INLINE vec neon_srli_epi32(vec v, int bits)
+{
+    return of_u32(as_u32(v) >> (uint32_t)bits);
+}
+
+INLINE vec neon_packs_epi16(vec low, vec high)
+{
+    return vreinterpretq_u8_s8(vqmovn_high_s16(vqmovn_s16(as_s16(low)), as_s16(high)));
+}
+
+/* ---- What the templates leave to the instruction set ---------------------------------------- */
+
+/* Unpacking and packing keep the order. */
+INLINE vec ordered(vec v)
+{
+    return v;
+}
+
+INLINE vec packed_order(vec v)
+{
+    return v;
+}
+
+INLINE vec running(vec v)
+{
+    const vec zero = neon_setzero();
+    const vec two = neon_add_epi32(v, vextq_u8(zero, v, 12));
+    return neon_add_epi32(two, vextq_u8(zero, two, 8));
+}
+
+INLINE vec running_u16(vec v)
+{
+    const vec zero = neon_setzero();
+    const vec two = neon_add_epi16(v, vextq_u8(zero, v, 14));
+    const vec four = neon_add_epi16(two, vextq_u8(zero, two, 12));
+    return neon_add_epi16(four, vextq_u8(zero, four, 8));
+}
+
+INLINE vec last_of(vec v)
+{
+    return of_u32(vdupq_laneq_u32(as_u32(v), 3));
+}
+
+INLINE vec last_of_u16(vec v)
+{
+    return of_u32(vdupq_n_u32(vgetq_lane_u16(as_u16(v), 7)));
+}
+
+INLINE uint32_t first_of(vec v)
+{
+    return vgetq_lane_u32(as_u32(v), 0);
+}
+
+INLINE vec pair_sums(vec v)
+{
+    return of_u16(vpaddlq_u8(v));
+}
+
+INLINE vec pair_sums_u16(vec v)
+{
+    return of_u32(vpaddlq_u16(as_u16(v)));
+}
+
+INLINE vec shuffled(vec v, vec places)
+{
+    return vqtbl1q_u8(v, places);
+}
+
+INLINE void store_half(uint8_t *bytes, vec v)
+{
+    vst1_u8(bytes, vget_low_u8(v));
+}
+
+INLINE int is_zero(vec v)
+{
+    return vmaxvq_u8(v) == 0;
+}
+
 #include "row/row_point_template.h"
+#include "row/row_point_map_template.h"
+#include "row/row_point_area_template.h"
+#include "row/row_point_bilinear_template.h"
+#include "row/row_point_resize_template.h"
+
+/* ---- Tables -------------------------------------------------------------------------------- */
+
+/* A quarter of the table each; where a value is of none of them, it stays as it was. */
+INLINE vec mapped(vec v, const uint8x16x4_t quarters[4])
+{
+    vec out = vqtbl4q_u8(quarters[0], v);
+    out = vqtbx4q_u8(out, quarters[1], vsubq_u8(v, vdupq_n_u8(64)));
+    out = vqtbx4q_u8(out, quarters[2], vsubq_u8(v, vdupq_n_u8(128)));
+    return vqtbx4q_u8(out, quarters[3], vsubq_u8(v, vdupq_n_u8(192)));
+}
+
+void pel_row_map_neon(const uint8_t *src, uint16_t count, const uint8_t *table, uint8_t *dst)
+{
+    const uint8x16x4_t quarters[4] = {vld1q_u8_x4(table), vld1q_u8_x4(table + 64),
+                                      vld1q_u8_x4(table + 128), vld1q_u8_x4(table + 192)};
+    const int end = count - LANES;
+    const vec last = mapped(load(src + end), quarters);
+
+    for (int x = 0; x < end; x += LANES) {
+        store(dst + x, mapped(load(src + x), quarters));
+    }
+    store(dst + end, last);
+}
 
 #else
 typedef int nothing_here; /* an empty file is no C */

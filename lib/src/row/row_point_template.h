@@ -16,6 +16,17 @@ INLINE void store(uint8_t *bytes, vec value)
     BITS(storeu)((loose_vec *)(void *)bytes, value);
 }
 
+/* The last vector may lie over the one before it. */
+ISA void KERNEL(copy)(const uint8_t *src, uint16_t count, uint8_t *dst)
+{
+    const int end = count - LANES;
+
+    for (int x = 0; x < end; x += LANES) {
+        store(dst + x, load(src + x));
+    }
+    store(dst + end, load(src + end));
+}
+
 INLINE vec difference_of(vec a, vec b)
 {
     return BITS(or)(V(subs_epu8)(a, b), V(subs_epu8)(b, a));

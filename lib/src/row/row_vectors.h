@@ -50,6 +50,25 @@
     PEL_ROW_PAIR(or, isa);                                                                         \
     PEL_ROW_PAIR(xor, isa);                                                                        \
     void pel_row_blend_##isa(const uint8_t *a, const uint8_t *b, uint16_t alpha_q8,                \
-                             uint16_t count, uint8_t *dst)
+                             uint16_t count, uint8_t *dst);                                        \
+    void pel_row_copy_##isa(const uint8_t *src, uint16_t count, uint8_t *dst);                     \
+    int pel_row_find_step_##isa(const uint8_t *table, uint8_t *last_low);                          \
+    void pel_row_step_##isa(const pel_row_curve *curve, const uint8_t *src, uint16_t count,        \
+                            uint8_t *dst);                                                         \
+    void pel_row_integral_##isa(const uint8_t *src, uint16_t count, const uint32_t *above,         \
+                                uint32_t *sums);                                                   \
+    void pel_row_columns_add_##isa(const uint8_t *src, uint16_t count, uint16_t times,             \
+                                   uint16_t *sums);                                                \
+    void pel_row_columns_subtract_##isa(const uint8_t *src, uint16_t count, uint16_t *sums);       \
+    void pel_row_over_mean_##isa(const uint8_t *src, const uint16_t *columns, uint16_t count,      \
+                                 uint16_t radius, int16_t c, uint8_t *dst);                        \
+    void pel_row_box_add2_##isa(const uint8_t *src, uint16_t width_out, uint32_t *sums);           \
+    void pel_row_box_add4_##isa(const uint8_t *src, uint16_t width_out, uint32_t *sums);           \
+    void pel_row_box_mean_##isa(const uint32_t *sums, uint32_t area, uint16_t count,               \
+                                uint8_t *dst);                                                     \
+    void pel_row_bilinear_##isa(const pel_row_between *rows, const pel_row_place *places,          \
+                                uint16_t count, uint8_t *dst);                                     \
+    void pel_row_gain3_##isa(const uint8_t *src, uint16_t count, const uint16_t gains_q8[3],       \
+                             uint8_t *dst)
 
 #endif
