@@ -35,7 +35,7 @@ static const char help[] =
     "two\n"
     "has colours, the other is made of three equal channels. --raw says what both are.\n"
     "\n"
-    "Options\n" TURN_HELP "\n"
+    "Options\n" OPTIONS_BACKEND_HELP TURN_HELP "\n"
     "Examples\n"
     "  pel point brightness 38 robot.ppm brighter.ppm\n"
     "  pel point brightness -38 robot.ppm darker.ppm\n"
@@ -352,11 +352,15 @@ static int take_own(int option, pointops_job *job)
     }
 }
 
-static const struct option long_options[] = {
-    {"list", no_argument, NULL, 'l'},       {"pivot", required_argument, NULL, 'p'},
-    {"nearest", no_argument, NULL, 'n'},    {"box", no_argument, NULL, 'x'},
-    {"bilinear", no_argument, NULL, 'b'},   {"patch", required_argument, NULL, 'P'},
-    {"gray-world", no_argument, NULL, 'W'}, TURN_OPTIONS};
+static const struct option long_options[] = {{"list", no_argument, NULL, 'l'},
+                                             {"pivot", required_argument, NULL, 'p'},
+                                             {"nearest", no_argument, NULL, 'n'},
+                                             {"box", no_argument, NULL, 'x'},
+                                             {"bilinear", no_argument, NULL, 'b'},
+                                             {"patch", required_argument, NULL, 'P'},
+                                             {"gray-world", no_argument, NULL, 'W'},
+                                             OPTIONS_BACKEND,
+                                             TURN_OPTIONS};
 
 static int check(const operation *chosen, const pointops_job *job)
 {
@@ -386,7 +390,9 @@ static int parse_rest(int argc, char **argv, const operation *chosen, pointops_j
         if (option == 'l') {
             return print_list();
         }
-        if (strchr("pnxbPW", option)) {
+        if (option == OPTION_BACKEND) {
+            status = options_backend(optarg, &job->backend) ? usage_hint("point") : -1;
+        } else if (strchr("pnxbPW", option)) {
             if (!chosen || !strchr(chosen->options, option)) {
                 return usage_error("point", "'--%s' is no option of %s", long_options[place].name,
                                    chosen ? chosen->name : "its own: the operation comes first");

@@ -43,7 +43,7 @@ static int count_luma(pointops_job *job, const char *path, const pel_cview *pict
         return -1;
     }
     const pel_cview gray = pel_view_to_read(&job->gray.view);
-    const pel_status status = pel_histogram_frame(&gray, 0, bins);
+    const pel_status status = pel_histogram_frame_with(&gray, 0, bins, job->backend);
     return status == PEL_OK ? 0 : failed(path, status);
 }
 
@@ -119,7 +119,7 @@ int pointops_table(pointops_job *job, const char *path, const pel_cview *picture
     if (room(job, path, picture->format, picture->width, picture->height)) {
         return -1;
     }
-    return put(job, path, pel_table_frame(job->table, picture, &job->made.view));
+    return put(job, path, pel_table_frame_with(job->table, picture, &job->made.view, job->backend));
 }
 
 /* ---- Neighbours and sizes ------------------------------------------------------------------ */
@@ -129,6 +129,7 @@ int pointops_adaptive(pointops_job *job, const char *path, const pel_cview *pict
     pel_adaptive_config config = {0};
     config.radius = job->radius;
     config.c = job->c;
+    config.backend = job->backend;
     config.work_bytes = PEL_ADAPTIVE_BYTES(picture->width, job->radius);
     if (room(job, path, PEL_GRAY8, picture->width, picture->height)) {
         return -1;
@@ -146,6 +147,7 @@ int pointops_resize(pointops_job *job, const char *path, const pel_cview *pictur
 {
     pel_resize_config config = {0};
     config.method = job->method;
+    config.backend = job->backend;
     config.channels = (uint8_t)channels_of(picture);
     config.width_in = picture->width;
     config.height_in = picture->height;
@@ -193,7 +195,7 @@ int pointops_integral(pointops_job *job, const char *path, const pel_cview *pict
     if (!sums) {
         return say_error(path, "out of memory");
     }
-    const pel_status status = pel_integral_frame(picture, sums, stride);
+    const pel_status status = pel_integral_frame_with(picture, sums, stride, job->backend);
     if (status == PEL_OK) {
         scale_sums(sums, stride, &job->made.view);
     }
@@ -236,7 +238,8 @@ int pointops_balance(pointops_job *job, const char *path, const pel_cview *pictu
         room(job, path, PEL_RGB888, picture->width, picture->height)) {
         return -1;
     }
-    return put(job, path, pel_white_balance_frame(gains_q8, picture, &job->made.view));
+    return put(job, path,
+               pel_white_balance_frame_with(gains_q8, picture, &job->made.view, job->backend));
 }
 
 /* ---- Two pictures -------------------------------------------------------------------------- */
@@ -293,7 +296,8 @@ int pointops_combine(pointops_job *job, const char *path, const pel_cview *pictu
     if (pair(job, path, picture, &a, &b)) {
         return -1;
     }
-    return put(job, path, pel_combine_frame(job->combine, &a, &b, &job->made.view));
+    return put(job, path,
+               pel_combine_frame_with(job->combine, &a, &b, &job->made.view, job->backend));
 }
 
 int pointops_blend(pointops_job *job, const char *path, const pel_cview *picture)
@@ -303,7 +307,8 @@ int pointops_blend(pointops_job *job, const char *path, const pel_cview *picture
     if (pair(job, path, picture, &a, &b)) {
         return -1;
     }
-    return put(job, path, pel_blend_frame(job->alpha_q8, &a, &b, &job->made.view));
+    return put(job, path,
+               pel_blend_frame_with(job->alpha_q8, &a, &b, &job->made.view, job->backend));
 }
 
 void pointops_free(pointops_job *job)

@@ -14,6 +14,7 @@ struct pointops_job {
     turn turn;
     pointops_step *look; /* makes the table from the picture; may be NULL */
     pointops_step *make;
+    pel_backend backend;
     uint8_t table[256];
     int32_t contrast_milli, pivot; /* pivot: PIVOT_MEAN, or 0..255 */
     uint16_t low_permille, high_permille;

@@ -1,5 +1,5 @@
 """--backend: the same bytes with every backend that the machine has, and by their names only."""
-from grids import noise, write_gray
+from grids import noise, write_gray, write_rgb
 from peltest import collect, equal, main, ok, refused, true, write
 
 
@@ -41,6 +41,22 @@ def test_classes():
     same("classify", "-c", "scene.classes", "scene.ppm", out="out.ppm")
 
 
+def test_points():
+    """Wide enough for vectors and what is left of them, with and without colours."""
+    write_gray("noise.pgm", noise(152, 40, 1))
+    write_gray("other.pgm", noise(152, 40, 2))
+    write_rgb("noise.ppm", *(noise(72, 12, seed) for seed in (3, 4, 5)))
+    for words in (("threshold", 99), ("otsu",), ("equalize",), ("gamma-brighten", "2"),
+                  ("adaptive", 7, 5), ("integral",), ("resize", "95x25"),
+                  ("resize", "76x20", "--box"), ("resize", "38x10", "--box"),
+                  ("resize", "95x25", "--nearest")):
+        same("point", *words, "noise.pgm", out="out.pgm")
+    for words in (("add", "other.pgm"), ("min", "other.pgm"), ("blend", "0.3", "other.pgm")):
+        same("point", *words, "noise.pgm", out="out.pgm")
+    for words in (("white-balance", "--gray-world"), ("resize", "45x6"), ("invert",)):
+        same("point", *words, "noise.ppm", out="out.ppm")
+
+
 def test_raw_frames():
     write("frame.yuv", bytes(value for row in noise(320, 20, 2) for value in row))
     ok("scene", "--size", "32x24", "-o", "scene.ppm", "--classes", "scene.classes")
@@ -50,7 +66,7 @@ def test_raw_frames():
 
 def test_names():
     write_gray("noise.pgm", noise(9, 9, 3))
-    for words in (("filter", "median"), ("blobs",), ("runs",), ("classify",)):
+    for words in (("filter", "median"), ("point", "invert"), ("blobs",), ("runs",), ("classify",)):
         refused(2, ["no backend 'mmx' here; there are: auto scalar"], *words, "--backend", "mmx",
                 "noise.pgm", "out.pgm")
 

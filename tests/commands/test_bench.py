@@ -97,8 +97,8 @@ def test_files():
                  "--input", "none", "ball.pgm")
     equal((row["input"], row["width"], row["height"]), ("ball", "32", "24"))
     raw = write("raw.yuv", bytes(range(64)) * 2)
-    row, = table("--no-opencv", "--runs", 1, "--operator", "table", "--input", "none", "--raw",
-                 "YUYV", "8x8", raw)
+    row, = table("--no-opencv", "--runs", 1, "--operator", "table", "--backend", "scalar",
+                 "--input", "none", "--raw", "YUYV", "8x8", raw)
     equal((row["input"], row["width"], row["height"]), ("raw", "8", "8"))
     refused(1, ["ball.pgm", "32x25"], "bench", "--size", "40x24", "--input", "none", "ball.pgm")
     refused(1, ["none.pgm"], "bench", "none.pgm")
