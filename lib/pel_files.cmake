@@ -32,6 +32,9 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/row/row_point_avx512.c
     ${PEL_LIB_DIR}/src/row/row_point_neon.c
     ${PEL_LIB_DIR}/src/row/row_point_words.c
+    ${PEL_LIB_DIR}/src/row/row_color_ssse3.c
+    ${PEL_LIB_DIR}/src/row/row_color_avx2.c
+    ${PEL_LIB_DIR}/src/row/row_color_neon.c
     ${PEL_LIB_DIR}/src/row/row_feature_c.c
     ${PEL_LIB_DIR}/src/color.c
     ${PEL_LIB_DIR}/src/image.c

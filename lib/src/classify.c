@@ -2,6 +2,7 @@
 
 #include "classifier.h"
 #include "format.h"
+#include "row/row_color_select.h"
 
 /* ---- Boxes and tables ---------------------------------------------------------------------- */
 
@@ -65,25 +66,35 @@ static void classify_yuv(const pel_classifier *classifier, const uint8_t *y, con
                          const uint8_t *v, uint16_t count, uint8_t *labels)
 {
     if (classifier->boxes) {
+        const pel_classify_plan *const plan = classifier->plan;
         const pel_row_boxes boxes = pel_i_row_boxes(classifier);
-        pel_row_classify(&boxes, y, u, v, count, labels);
+        const uint8_t *const yuv[3] = {y, u, v};
+        pel_i_row_classify(plan ? plan->backend : PEL_ROW_BUILT_IN, plan ? plan->nibbles : NULL,
+                           &boxes, yuv, count, labels);
     } else {
         const pel_row_lut lut = row_lut(&classifier->lut);
         pel_row_classify_lut(&lut, y, u, v, count, labels);
     }
 }
 
-enum { CHUNK = 8 }; /* pixels read at a time: 24 bytes of stack here, 24 in the reader */
+/* Pixels read at a time: U and V lie on the stack, Y where the labels will. What converts many at
+ * once wants many. */
+#if defined(PEL_ROW_COLOR)
+enum { CHUNK = 96 };
+#else
+enum { CHUNK = 8 };
+#endif
 
 /* Whatever the reader reads. */
 void pel_classify_pieces(const pel_classifier *classifier, const pel_crow *row, uint16_t width,
                          uint8_t *labels)
 {
     for (uint16_t x = 0; x < width; x = (uint16_t)(x + CHUNK)) {
-        uint8_t y[CHUNK], u[CHUNK], v[CHUNK];
+        uint8_t u[CHUNK], v[CHUNK];
         const uint16_t n = (uint16_t)(width - x < CHUNK ? width - x : CHUNK);
-        (void)classifier->reader(row, x, n, classifier->range, y, u, v); /* checked before */
-        classify_yuv(classifier, y, u, v, n, labels + x);
+        (void)classifier->reader(row, x, n, classifier->range, labels, u, v); /* checked before */
+        classify_yuv(classifier, labels, u, v, n, labels);
+        labels += n;
     }
 }
 

@@ -1,7 +1,7 @@
 #include "pel/color.h"
 
 #include "overlap.h"
-#include "row/row.h"
+#include "row/row_color_select.h"
 
 /* Rows of three bytes a pixel: the same one, or two that do not overlap. */
 static int places_ok(const uint8_t *src, const uint8_t *dst, uint16_t width)
@@ -15,7 +15,8 @@ pel_status pel_rgb_to_ycbcr_row(const uint8_t *rgb, uint8_t *ycbcr, uint16_t wid
     if (!places_ok(rgb, ycbcr, width) || (unsigned)range > PEL_RANGE_LIMITED) {
         return PEL_ERR_ARG;
     }
-    pel_row_rgb_to_ycbcr(rgb, width, range == PEL_RANGE_LIMITED, ycbcr, ycbcr + 1, ycbcr + 2, 3);
+    pel_i_row_rgb_to_ycbcr(pel_i_row_backend(PEL_BACKEND_AUTO), rgb, width,
+                           range == PEL_RANGE_LIMITED, ycbcr);
     return PEL_OK;
 }
 
@@ -24,7 +25,8 @@ pel_status pel_ycbcr_to_rgb_row(const uint8_t *ycbcr, uint8_t *rgb, uint16_t wid
     if (!places_ok(ycbcr, rgb, width) || (unsigned)range > PEL_RANGE_LIMITED) {
         return PEL_ERR_ARG;
     }
-    pel_row_ycbcr_to_rgb(ycbcr, ycbcr + 1, ycbcr + 2, 3, width, range == PEL_RANGE_LIMITED, rgb);
+    pel_i_row_ycbcr_to_rgb(pel_i_row_backend(PEL_BACKEND_AUTO), ycbcr, width,
+                           range == PEL_RANGE_LIMITED, rgb);
     return PEL_OK;
 }
 

@@ -4,6 +4,7 @@
  */
 #include "format.h"
 #include "overlap.h"
+#include "row/row_color_select.h"
 
 /* What all readers refuse. */
 static pel_status check_part(const pel_crow *row, uint16_t x, uint16_t count)
@@ -67,6 +68,68 @@ static rgb_reader *rgb_reader_of(unsigned layout)
                                          : rgb_of_bayer;
 }
 
+/* ---- In vectors ---------------------------------------------------------------------------- */
+
+/* Whole parts of rows where a backend has a version for them; else 0, and nothing is done. */
+#if defined(PEL_ROW_COLOR)
+static pel_row_colors colors_of(const pel_crow *row, uint16_t x)
+{
+    const pel_format_info *const info = pel_i_format(row->format);
+    const size_t skip = (size_t)x * (info->layout == PEL_LAYOUT_RGB24 ? 3 : 2);
+    const pel_row_colors colors = {row->plane[0] + skip,
+                                   info->layout == PEL_LAYOUT_BAYER ? row->plane[1] + skip : NULL,
+                                   info->layout == PEL_LAYOUT_RGB24    ? PEL_ROW_RGB24
+                                   : info->layout == PEL_LAYOUT_RGB565 ? PEL_ROW_RGB565
+                                                                       : PEL_ROW_BAYER,
+                                   info->order};
+    return colors;
+}
+
+static int convert_at_once(const pel_crow *row, uint16_t x, uint16_t count, int limited, planes to)
+{
+    const pel_row_colors src = colors_of(row, x);
+    const pel_row_places dst = {to.y, to.u, to.v, 1};
+    return pel_i_row_colors_to_ycbcr(pel_i_row_backend(PEL_BACKEND_AUTO), &src, count, limited,
+                                     &dst);
+}
+
+static int copy_at_once(const pel_crow *row, uint16_t x, uint16_t count, uint8_t *rgb)
+{
+    const pel_row_colors src = colors_of(row, x);
+    return pel_i_row_colors_to_rgb(pel_i_row_backend(PEL_BACKEND_AUTO), &src, count, rgb);
+}
+
+/* A pair that begins with its second pixel is for plain C. */
+static pel_row_pairs pairs_from(const pel_row_pairs *pairs, uint16_t x)
+{
+    const size_t chroma = (size_t)(x / 2) * pairs->c_step;
+    const pel_row_pairs part = {pairs->y + (size_t)x * pairs->y_step, pairs->u + chroma,
+                                pairs->v + chroma, pairs->y_step, pairs->c_step};
+    return part;
+}
+
+static int copy_pairs_at_once(const pel_row_pairs *pairs, uint16_t x, uint16_t count, planes to)
+{
+    const pel_row_pairs src = pairs_from(pairs, x);
+    const pel_row_places dst = {to.y, to.u, to.v, 1};
+    return x % 2 == 0 &&
+           pel_i_row_pairs_to_planes(pel_i_row_backend(PEL_BACKEND_AUTO), &src, count, &dst);
+}
+
+static int convert_pairs_at_once(const pel_row_pairs *pairs, uint16_t x, uint16_t count,
+                                 int limited, uint8_t *rgb)
+{
+    const pel_row_pairs src = pairs_from(pairs, x);
+    return x % 2 == 0 &&
+           pel_i_row_pairs_to_rgb(pel_i_row_backend(PEL_BACKEND_AUTO), &src, count, limited, rgb);
+}
+#else
+#define convert_at_once(row, x, count, limited, to) 0
+#define copy_at_once(row, x, count, rgb) 0
+#define copy_pairs_at_once(pairs, x, count, to) 0
+#define convert_pairs_at_once(pairs, x, count, limited, rgb) 0
+#endif
+
 enum { CHUNK = 8 }; /* pixels converted at a time: 24 bytes of stack */
 
 static void convert(const pel_crow *row, uint16_t x, uint16_t count, rgb_reader *read, int limited,
@@ -74,6 +137,9 @@ static void convert(const pel_crow *row, uint16_t x, uint16_t count, rgb_reader 
 {
     uint8_t rgb[3 * CHUNK];
 
+    if (convert_at_once(row, x, count, limited, to)) {
+        return;
+    }
     for (uint16_t done = 0; done < count; done = (uint16_t)(done + CHUNK)) {
         const uint16_t n = (uint16_t)(count - done < CHUNK ? count - done : CHUNK);
         read(row, (uint16_t)(x + done), n, rgb);
@@ -90,7 +156,9 @@ static pel_status copy_pairs(const pel_crow *row, uint16_t x, uint16_t count, pe
     if (row->range != range) {
         return PEL_ERR_FORMAT;
     }
-    pel_row_read_pairs(&pairs, x, count, to.y, to.u, to.v);
+    if (!copy_pairs_at_once(&pairs, x, count, to)) {
+        pel_row_read_pairs(&pairs, x, count, to.y, to.u, to.v);
+    }
     return PEL_OK;
 }
 
@@ -175,6 +243,9 @@ static void convert_pairs(const pel_row_pairs *pairs, uint16_t x, uint16_t count
 {
     uint8_t yuv[3 * CHUNK];
 
+    if (convert_pairs_at_once(pairs, x, count, limited, rgb)) {
+        return;
+    }
     for (uint16_t done = 0; done < count; done = (uint16_t)(done + CHUNK)) {
         const uint16_t n = (uint16_t)(count - done < CHUNK ? count - done : CHUNK);
         pel_row_read_pairs(pairs, (uint16_t)(x + done), n, yuv, yuv + CHUNK, yuv + 2 * CHUNK);
@@ -198,7 +269,7 @@ pel_status pel_crow_read_rgb(const pel_crow *row, uint16_t x, uint16_t count, ui
     if (info->layout == PEL_LAYOUT_PAIRS) {
         const pel_row_pairs pairs = pel_i_pairs(info, row);
         convert_pairs(&pairs, x, count, row->range == PEL_RANGE_LIMITED, rgb);
-    } else {
+    } else if (!copy_at_once(row, x, count, rgb)) {
         rgb_reader *const read = rgb_reader_of(info->layout);
         read(row, x, count, rgb);
     }

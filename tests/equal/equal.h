@@ -30,13 +30,18 @@ typedef struct equal_kernel {
 } equal_kernel;
 
 /* The tables of the modules, ended by a kernel without name. */
-extern const equal_kernel equal_color_kernels[], equal_filter_kernels[], equal_point_kernels[];
+extern const equal_kernel equal_color_kernels[], equal_filter_kernels[], equal_point_kernels[],
+    equal_row_kernels[];
 
 /* A random number; the state moves on. */
 uint32_t equal_random(uint32_t *state);
 
 /* Filters random frames; returns how many are equal. */
 unsigned equal_frames(pel_backend backend, uint32_t seed, unsigned *failed);
+
+/* Converts all 2^24 colours, there and back, in either range; returns in how many ranges all are
+ * equal. */
+unsigned equal_colors(pel_backend backend, unsigned *failed);
 
 /* Whether the root that the kernels of x86 take in single precision, cut off, is the whole root of
  * every number that gx^2 + gy^2 can be, and the guessed one that of those of 16 bits. Elsewhere
