@@ -36,6 +36,10 @@ set(PEL_SOURCES
     ${PEL_LIB_DIR}/src/row/row_color_avx2.c
     ${PEL_LIB_DIR}/src/row/row_color_neon.c
     ${PEL_LIB_DIR}/src/row/row_feature_c.c
+    ${PEL_LIB_DIR}/src/row/row_feature_ssse3.c
+    ${PEL_LIB_DIR}/src/row/row_feature_avx2.c
+    ${PEL_LIB_DIR}/src/row/row_feature_avx512.c
+    ${PEL_LIB_DIR}/src/row/row_feature_neon.c
     ${PEL_LIB_DIR}/src/color.c
     ${PEL_LIB_DIR}/src/image.c
     ${PEL_LIB_DIR}/src/image_read.c

@@ -115,10 +115,10 @@ const bench_op bench_ops[] = {
     POINT_OF("resize", "bilinear, to 5/8", resize, PEL_RESIZE_BILINEAR, WITHIN(1)),
     POINT_OF("resize-box", "means of 2x2", resize, PEL_RESIZE_BOX, SAME),
     POINT_OF("resize-nearest", "one of the pixels, to 5/8", resize, PEL_RESIZE_NEAREST, SAME),
-    CHOSEN("harris", "Harris responses", responses, PEL_CORNERS_HARRIS, RESPONSES),
-    CHOSEN("shi-tomasi", "Shi-Tomasi responses", responses, PEL_CORNERS_SHI_TOMASI, RESPONSES),
-    CHOSEN("fast", "FAST-9 responses", responses, PEL_CORNERS_FAST9, ALONE),
-    JOB("canny", "edges with hysteresis", GRAY, canny, canny, SAME),
+    POINT_OF("harris", "Harris responses", responses, PEL_CORNERS_HARRIS, RESPONSES),
+    POINT_OF("shi-tomasi", "Shi-Tomasi responses", responses, PEL_CORNERS_SHI_TOMASI, RESPONSES),
+    POINT_OF("fast", "FAST-9 responses", responses, PEL_CORNERS_FAST9, ALONE),
+    POINT("canny", "edges with hysteresis", GRAY, canny, canny, SAME),
 };
 /* clang-format on */
 

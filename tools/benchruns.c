@@ -353,6 +353,7 @@ int benchruns_start_responses(bench_job *job)
 {
     pel_corners_config *config = &job->corners_config;
     config->method = (pel_corners_method)job->op->choice;
+    config->backend = job->backend;
     config->work_bytes = pel_corners_bytes(job->in.width, config->method);
     config->work = benchops_take(job, config->work_bytes);
     config->on_response = keep_responses;
@@ -367,6 +368,7 @@ pel_status benchruns_responses(bench_job *job)
 
 int benchruns_start_canny(bench_job *job)
 {
+    job->canny.backend = job->backend;
     job->canny.low = 100;
     job->canny.high = 200;
     job->canny.work_bytes = PEL_CANNY_BYTES(job->in.width);

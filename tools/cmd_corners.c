@@ -35,8 +35,8 @@ static const char help[] =
     "strict\n"
     "                           (equals put each other out) or none (all over the threshold)\n"
     "      --raw FORMAT WxH     IN holds raw frames: YUYV 320x240, for example\n"
-    "      --range RANGE        of raw YCbCr frames: full (default) or limited\n"
-    "\n"
+    "      --range RANGE        of raw YCbCr frames: full (default) or "
+    "limited\n" OPTIONS_BACKEND_HELP "\n"
     "What to write\n"
     "      --csv                a line per corner; the first line names the columns: "
     "x,y,response.\n"
@@ -121,6 +121,8 @@ static int read_option(int option, int argc, char **argv, struct job *job)
         return read_suppress(&job->config.suppress);
     case 'k':
         return read_k(&job->config.k_q15);
+    case OPTION_BACKEND:
+        return options_backend(optarg, &job->config.backend);
     case 't':
         return read_threshold(&job->config.threshold);
     default:
@@ -153,6 +155,7 @@ static int check(int argc, char **argv, struct job *job)
 }
 
 static const struct option long_options[] = {OPTIONS_INPUT,
+                                             OPTIONS_BACKEND,
                                              {"method", required_argument, NULL, 'm'},
                                              {"max", required_argument, NULL, 'x'},
                                              {"threshold", required_argument, NULL, 't'},

@@ -24,8 +24,8 @@ static const char help[] =
     "                             rows    with three rows of memory: downward without end, upward "
     "by\n"
     "                                     one row, as a robot without a frame buffer can\n"
-    "                             none    not at all: strong ones white, weak ones gray\n" TURN_HELP
-    "\n"
+    "                             none    not at all: strong ones white, weak ones "
+    "gray\n" OPTIONS_BACKEND_HELP TURN_HELP "\n"
     "Examples\n"
     "  pel edges robot.ppm edges.png\n"
     "  pel edges --low 200 --high 500 robot.ppm strong.pgm\n"
@@ -39,6 +39,7 @@ struct job {
     turn turn;
     unsigned long low, high;
     int has_low, has_high;
+    pel_backend backend;
     link_how how;
     frame map;
 };
@@ -65,6 +66,8 @@ static int take_option(int option, struct job *job)
     case 'u':
         job->has_high = 1;
         return options_number("--high", optarg, 0, MAGNITUDE_MAX, &job->high);
+    case OPTION_BACKEND:
+        return options_backend(optarg, &job->backend);
     case 'k':
         return read_how(&job->how);
     default:
@@ -90,6 +93,7 @@ static int parse(int argc, char **argv, struct job *job)
     static const struct option long_options[] = {{"low", required_argument, NULL, 'l'},
                                                  {"high", required_argument, NULL, 'u'},
                                                  {"link", required_argument, NULL, 'k'},
+                                                 OPTIONS_BACKEND,
                                                  TURN_OPTIONS};
     int option;
     opterr = 0;
@@ -115,6 +119,7 @@ static pel_status map_edges(const struct job *job, const pel_cview *picture)
     pel_canny_config config = {0};
     config.low = (uint16_t)job->low;
     config.high = (uint16_t)job->high;
+    config.backend = job->backend;
     config.work_bytes = PEL_CANNY_BYTES(picture->width);
     config.work = malloc(config.work_bytes);
     const pel_status status =

@@ -1,7 +1,7 @@
 #include "pel/feature.h"
 
 #include "overlap.h"
-#include "row/row_feature.h"
+#include "row/row_feature_select.h"
 
 /* ---- Working memory ------------------------------------------------------------------------ */
 
@@ -60,7 +60,8 @@ uint32_t pel_corners_bytes(uint16_t width, pel_corners_method method)
 static pel_status check_config(const pel_corners_config *c)
 {
     if ((unsigned)c->method >= PEL_CORNERS_METHOD_COUNT ||
-        (unsigned)c->suppress > PEL_SUPPRESS_NONE || c->k_q15 > 8191 || c->threshold < 0 ||
+        (unsigned)c->suppress > PEL_SUPPRESS_NONE || (unsigned)c->backend >= PEL_BACKEND_COUNT ||
+        c->k_q15 > 8191 || c->threshold < 0 ||
         (c->method == PEL_CORNERS_FAST9 && c->threshold > 254)) {
         return PEL_ERR_ARG;
     }
@@ -91,6 +92,7 @@ pel_status pel_corners_begin(pel_corners *f, const pel_corners_config *config)
         return status;
     }
     f->config = *config;
+    f->config.backend = pel_i_row_backend(config->backend);
     set_defaults(&f->config);
     f->found = 0;
     f->dropped = 0;
@@ -134,8 +136,8 @@ static void respond_fast9(const pel_corners *f, uint16_t y, const uint8_t *rows[
         for (unsigned i = 0; i < 7; i++) {
             rows[i] += FAST_RADIUS;
         }
-        pel_row_fast9(rows, (uint16_t)(width - 2 * FAST_RADIUS), (int16_t)f->config.threshold,
-                      responses + FAST_RADIUS);
+        pel_i_row_fast9(f->config.backend, rows, (uint16_t)(width - 2 * FAST_RADIUS),
+                        (int16_t)f->config.threshold, responses + FAST_RADIUS);
     }
 }
 
@@ -149,9 +151,9 @@ static void respond(const pel_corners *f, uint16_t y)
     if (c->method == PEL_CORNERS_FAST9) {
         respond_fast9(f, y, rows, responses);
     } else if (c->method == PEL_CORNERS_SHI_TOMASI) {
-        pel_row_shi_tomasi(rows, c->width, responses);
+        pel_i_row_shi_tomasi(c->backend, rows, c->width, responses);
     } else {
-        pel_row_harris(rows, c->width, c->k_q15, responses);
+        pel_i_row_harris(c->backend, rows, c->width, c->k_q15, responses);
     }
     if (c->on_response) {
         c->on_response(c->user, y, responses);
@@ -223,42 +225,30 @@ static void keep(pel_corners *f, const pel_corner *corner)
 
 /* ---- Corners ------------------------------------------------------------------------------- */
 
-/* rows: the responses above, at and below. */
-static int is_corner(const pel_corners *f, const int32_t *const rows[3], uint16_t x)
-{
-    const int32_t r = rows[1][x];
-    const int32_t *const above = rows[0] + x, *const below = rows[2] + x;
-    /* r - 1 cannot wrap, as the threshold is at least 1 */
-    const int32_t most = f->config.suppress == PEL_SUPPRESS_STRICT ? r - 1 : r;
-
-    if (r < f->config.threshold) {
-        return 0;
-    }
-    if (f->config.suppress == PEL_SUPPRESS_NONE) {
-        return 1;
-    }
-    return r > above[-1] && r > above[0] && r > above[1] && r > rows[1][(int)x - 1] &&
-           rows[1][x + 1] <= most && below[-1] <= most && below[0] <= most && below[1] <= most;
-}
-
 /*
  * 16 times the vertex of the parabola through (-1, before), (0, top), (1, after), top the largest:
  * 8 (after - before) / (2 top - before - after), that is steep / bend. |after - before| is not over
- * the divisor, so the result is within -8..8, and 16 steps do for the division. Values < 2^37.
+ * the divisor, so the result is within -8..8. With 8 added it is found bit by bit. Values < 2^39.
  */
 static int8_t vertex_q4(int32_t before, int32_t top, int32_t after)
 {
     const int64_t steep = 8 * ((int64_t)after - before);
     const int64_t bend = 2 * (int64_t)top - before - after;
-    int8_t q4 = -8;
+    int64_t part = 32 * bend, rest = 2 * steep + 17 * bend;
+    int quotient = 0;
 
     if (bend == 0) {
         return 0;
     }
-    while (2 * bend * (q4 + 1) <= 2 * steep + bend) {
-        q4++;
+    for (int i = 0; i < 5; i++) {
+        quotient *= 2;
+        if (rest >= part) {
+            rest -= part;
+            quotient++;
+        }
+        part /= 2;
     }
-    return q4;
+    return (int8_t)(quotient - 8);
 }
 
 static pel_corner corner_at(const pel_corners *f, const int32_t *const rows[3], uint16_t x,
@@ -282,8 +272,30 @@ static pel_corner corner_at(const pel_corners *f, const int32_t *const rows[3], 
     return corner;
 }
 
+/* Nothing more is made of a corner that nobody is told of. */
+static void report(pel_corners *f, const int32_t *const rows[3], uint16_t x, uint16_t y)
+{
+    const pel_corners_config *const c = &f->config;
+
+    f->found++;
+    if (c->results_max > 0 || c->on_corner) {
+        const pel_corner corner = corner_at(f, rows, x, y);
+        keep(f, &corner);
+        if (c->on_corner) {
+            c->on_corner(c->user, &corner);
+        }
+    }
+}
+
+static uint16_t next_corner(const pel_corners *f, const int32_t *const rows[3], uint16_t begin)
+{
+    const pel_corners_config *const c = &f->config;
+    return pel_i_row_next_top(c->backend, rows, begin, c->width, c->threshold, (int)c->suppress);
+}
+
 static void finish(pel_corners *f, uint16_t y)
 {
+    const uint16_t width = f->config.width;
     const int32_t *rows[3];
 
     if (y + 1 == f->config.height) {
@@ -292,15 +304,9 @@ static void finish(pel_corners *f, uint16_t y)
     for (uint32_t i = 0; i < 3; i++) {
         rows[i] = response_row(f, y + i + 2u); /* row y - 1 + i is in slot y + 2 + i, modulo 3 */
     }
-    for (uint16_t x = 0; x < f->config.width; x++) {
-        if (is_corner(f, rows, x)) {
-            const pel_corner corner = corner_at(f, rows, x, y);
-            f->found++;
-            keep(f, &corner);
-            if (f->config.on_corner) {
-                f->config.on_corner(f->config.user, &corner);
-            }
-        }
+    for (uint16_t x = next_corner(f, rows, 0); x < width;
+         x = next_corner(f, rows, (uint16_t)(x + 1))) {
+        report(f, rows, x, y);
     }
 }
 

@@ -1,7 +1,7 @@
 #include "pel/feature.h"
 
 #include "overlap.h"
-#include "row/row_feature.h"
+#include "row/row_feature_select.h"
 
 /* ---- Working memory ------------------------------------------------------------------------ */
 
@@ -37,7 +37,8 @@ uint32_t pel_canny_bytes(uint16_t width)
 
 static pel_status check_config(const pel_canny_config *c)
 {
-    if (!c->work || !pel_i_aligned2(c->work) || c->low > c->high) {
+    if (!c->work || !pel_i_aligned2(c->work) || c->low > c->high ||
+        (unsigned)c->backend >= PEL_BACKEND_COUNT) {
         return PEL_ERR_ARG;
     }
     if (c->width == 0 || c->height == 0 || c->width > PEL_SIDE_MAX || c->height > PEL_SIDE_MAX) {
@@ -54,6 +55,7 @@ pel_status pel_canny_begin(pel_canny *f, const pel_canny_config *config)
         return status;
     }
     f->config = *config;
+    f->config.backend = pel_i_row_backend(config->backend);
     f->pushed = 0;
     f->graded = 0;
     f->row = 0;
@@ -96,7 +98,7 @@ static void grade(const pel_canny *f, uint16_t y)
     rows[0] = gray_row(f, (uint16_t)(y > 0 ? y - 1 : 0));
     rows[1] = gray_row(f, y);
     rows[2] = gray_row(f, (uint16_t)(y + 1 < f->config.height ? y + 1 : y));
-    pel_row_gradient_sector(rows, f->config.width, gradient_row(f, y));
+    pel_i_row_gradient_sector(f->config.backend, rows, f->config.width, gradient_row(f, y));
 }
 
 /* Gradients are computed when a row is pulled, not when it is pushed: only then is the slot that
@@ -121,7 +123,7 @@ pel_status pel_canny_pull(pel_canny *f, uint8_t *out)
     for (uint32_t i = 0; i < 3; i++) {
         rows[i] = gradient_row(f, f->row + i + 2u); /* row - 1 + i, modulo 3 */
     }
-    pel_row_thin(rows, f->config.width, f->config.low, f->config.high, out);
+    pel_i_row_thin(f->config.backend, rows, f->config.width, f->config.low, f->config.high, out);
     f->row++;
     return PEL_OK;
 }

@@ -64,9 +64,22 @@ def test_raw_frames():
     same("classify", *raw, "frame.yuv", out="out.ppm")
 
 
+def test_corners():
+    write_gray("noise.pgm", noise(150, 40, 4))
+    for method in ("harris", "shi-tomasi", "fast"):
+        same("corners", "--method", method, "--csv", "noise.pgm")
+
+
+def test_edges():
+    write_gray("noise.pgm", noise(150, 40, 5))
+    for how in ("whole", "rows", "none"):
+        same("edges", "--link", how, "noise.pgm", out="out.pgm")
+
+
 def test_names():
     write_gray("noise.pgm", noise(9, 9, 3))
-    for words in (("filter", "median"), ("point", "invert"), ("blobs",), ("runs",), ("classify",)):
+    for words in (("filter", "median"), ("point", "invert"), ("blobs",), ("runs",), ("classify",),
+                  ("corners",), ("edges",)):
         refused(2, ["no backend 'mmx' here; there are: auto scalar"], *words, "--backend", "mmx",
                 "noise.pgm", "out.pgm")
 

@@ -1,9 +1,9 @@
 /*
  * Every row kernel with every backend that this machine has, against plain C, bit for bit:
  * widths from 0 to three vectors and three, offsets 0..31, eight kinds of patterns, and random
- * long rows; with canaries on both sides of the result. Then whole frames through filters, and all
- * colours through the conversions. In a sanitized build the rows end where their memory ends, so
- * that a read behind them is seen, too.
+ * long rows; with canaries on both sides of the result. Then whole frames through filters, corners
+ * and edges, and all colours through the conversions. In a sanitized build the rows end where their
+ * memory ends, so that a read behind them is seen, too.
  *
  *   equal [SEED]
  */
@@ -16,7 +16,8 @@
 enum { OFFSETS = 32, WIDTHS = 3 * 64 + 4, CANARY = 0xA5, CANARIES = 64, LONG_ROWS = 200 };
 
 static const equal_kernel *const tables[] = {equal_color_kernels, equal_filter_kernels,
-                                             equal_point_kernels, equal_row_kernels};
+                                             equal_point_kernels, equal_row_kernels,
+                                             equal_feature_kernels};
 static unsigned long passed, failed;
 
 uint32_t equal_random(uint32_t *state)
@@ -167,6 +168,9 @@ int main(int argc, char **argv)
         passed += equal_frames((pel_backend)b, seed, &wrong);
         passed += equal_colors((pel_backend)b, &wrong);
         failed += wrong;
+        wrong = 0;
+        passed += equal_pictures((pel_backend)b, seed, &wrong);
+        failed += wrong;
         printf("%s: %lu comparisons with plain C\n", pel_backend_name((pel_backend)b),
                passed + failed - before);
     }
@@ -176,6 +180,7 @@ int main(int argc, char **argv)
         return 0;
     }
     *(equal_roots_hold() ? &passed : &failed) += 1;
+    *(equal_long_roots_hold() ? &passed : &failed) += 1;
     printf("%lu passed, %lu failed\n", passed, failed);
     return failed != 0;
 }

@@ -31,7 +31,7 @@ typedef struct equal_kernel {
 
 /* The tables of the modules, ended by a kernel without name. */
 extern const equal_kernel equal_color_kernels[], equal_filter_kernels[], equal_point_kernels[],
-    equal_row_kernels[];
+    equal_row_kernels[], equal_feature_kernels[];
 
 /* A random number; the state moves on. */
 uint32_t equal_random(uint32_t *state);
@@ -43,9 +43,16 @@ unsigned equal_frames(pel_backend backend, uint32_t seed, unsigned *failed);
  * equal. */
 unsigned equal_colors(pel_backend backend, unsigned *failed);
 
+/* Finds corners and edges in random pictures; returns how many are equal. */
+unsigned equal_pictures(pel_backend backend, uint32_t seed, unsigned *failed);
+
 /* Whether the root that the kernels of x86 take in single precision, cut off, is the whole root of
  * every number that gx^2 + gy^2 can be, and the guessed one that of those of 16 bits. Elsewhere
  * there is nothing to try. */
 int equal_roots_hold(void);
+
+/* Whether a number < 2^23 less the root of one < 2^45 in double precision, cut off, is what it
+ * exactly is, at all squares and beside them, where it comes closest to the next whole number. */
+int equal_long_roots_hold(void);
 
 #endif

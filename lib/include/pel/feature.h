@@ -26,6 +26,7 @@
 #ifndef PEL_FEATURE_H
 #define PEL_FEATURE_H
 
+#include "pel/backend.h"
 #include "pel/image.h"
 
 #ifdef __cplusplus
@@ -105,6 +106,7 @@ uint32_t pel_corners_bytes(uint16_t width, pel_corners_method method);
 typedef struct pel_corners_config {
     pel_corners_method method;
     pel_corners_suppress suppress;
+    pel_backend backend;    /* resolved by begin */
     uint16_t width, height; /* 1..PEL_SIDE_MAX */
     uint16_t k_q15;         /* HARRIS: 0..8191, under 1/4, where nothing would be left; 0 stands for
                                1311 (0.04) */
@@ -138,8 +140,9 @@ typedef struct pel_corners {
 
 /*
  * Starts a picture; any picture in progress is forgotten. The config is copied.
- * PEL_ERR_ARG: null pointer, misaligned work, unknown method or suppression, k or threshold out of
- * range. PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX. PEL_ERR_SPACE: work_bytes too small.
+ * PEL_ERR_ARG: null pointer, misaligned work, unknown method, suppression or backend, k or
+ * threshold out of range. PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX. PEL_ERR_SPACE:
+ * work_bytes too small.
  */
 pel_status pel_corners_begin(pel_corners *corners, const pel_corners_config *config);
 
@@ -206,10 +209,11 @@ enum { PEL_CANNY_NONE = 0, PEL_CANNY_WEAK = 128, PEL_CANNY_STRONG = 255 };
 #define PEL_CANNY_WORDS(width) ((PEL_CANNY_BYTES(width) + 1u) / 2u)
 uint32_t pel_canny_bytes(uint16_t width);
 
-/* All must be set. */
+/* All but the backend must be set. */
 typedef struct pel_canny_config {
     uint16_t width, height; /* 1..PEL_SIDE_MAX */
     uint16_t low, high;     /* low <= high; a low of 2040 or more leaves no edge at all */
+    pel_backend backend;    /* resolved by begin */
     void *work;             /* PEL_CANNY_BYTES(width), aligned to 2 bytes; in use until the last row
                                is pulled */
     size_t work_bytes;
@@ -224,8 +228,8 @@ typedef struct pel_canny {
 } pel_canny;
 
 /*
- * Starts a picture. PEL_ERR_ARG: null pointer, misaligned work, low over high. PEL_ERR_RANGE: a
- * side is 0 or over PEL_SIDE_MAX. PEL_ERR_SPACE: work_bytes too small.
+ * Starts a picture. PEL_ERR_ARG: null pointer, misaligned work, low over high, unknown backend.
+ * PEL_ERR_RANGE: a side is 0 or over PEL_SIDE_MAX. PEL_ERR_SPACE: work_bytes too small.
  */
 pel_status pel_canny_begin(pel_canny *canny, const pel_canny_config *config);
 

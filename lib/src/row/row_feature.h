@@ -18,6 +18,15 @@ void pel_row_shi_tomasi(const uint8_t *const rows[], uint16_t count, int32_t *re
 void pel_row_fast9(const uint8_t *const rows[], uint16_t count, int16_t threshold,
                    int32_t *responses);
 
+/* Which responses are tops among their neighbours; PEL_SUPPRESS_... of feature.h are the same. */
+enum { PEL_ROW_TOP_FIRST = 0, PEL_ROW_TOP_STRICT = 1, PEL_ROW_TOP_ANY = 2 };
+
+/* The first of begin .. end - 1 where the response is a top and at least `threshold`, which is 1 or
+ * more; `end` if there is none. rows: the responses above, at and below, all under 2^31 - 1; r = 1.
+ */
+uint16_t pel_row_next_top(const int32_t *const rows[], uint16_t begin, uint16_t end,
+                          int32_t threshold, int kind);
+
 /* The magnitude |gx| + |gy| of Sobel and, from bit PEL_SECTOR_SHIFT on, across which neighbours the
  * edge is to be thinned; r = 1. */
 enum {

@@ -165,6 +165,34 @@ void pel_row_fast9(const uint8_t *const rows[], uint16_t count, int16_t threshol
     }
 }
 
+/* ---- Tops ---------------------------------------------------------------------------------- */
+
+/* Over those before it, in raster order, and over or at least at those behind it. */
+static int is_top(const int32_t *const rows[], int x, int kind)
+{
+    const int32_t *const above = rows[0] + x, *const row = rows[1] + x, *const below = rows[2] + x;
+    const int32_t r = row[0];
+    /* r - 1 cannot wrap, as the threshold is at least 1 */
+    const int32_t most = kind == PEL_ROW_TOP_STRICT ? r - 1 : r;
+
+    return kind == PEL_ROW_TOP_ANY ||
+           (r > above[-1] && r > above[0] && r > above[1] && r > row[-1] && row[1] <= most &&
+            below[-1] <= most && below[0] <= most && below[1] <= most);
+}
+
+uint16_t pel_row_next_top(const int32_t *const rows[], uint16_t begin, uint16_t end,
+                          int32_t threshold, int kind)
+{
+    const int32_t *const row = rows[1];
+
+    for (uint16_t x = begin; x < end; x++) {
+        if (row[x] >= threshold && is_top(rows, x, kind)) {
+            return x;
+        }
+    }
+    return end;
+}
+
 /* ---- Canny --------------------------------------------------------------------------------- */
 
 /* Angles by products: 32768 * 1020 < 2^25, (65536 + 13573) * 1020 < 2^27. */
