@@ -255,12 +255,26 @@ INLINE vec both(vec a, vec b)
     return BITS(and)(a, b);
 }
 
+/* The nibble tables of a channel. */
+typedef struct tables {
+    const uint8_t *channel;
+    vec rough;
+} tables;
+
+INLINE tables tables_of(const uint8_t *channel)
+{
+    const tables t = {channel, rough_table(channel)};
+    return t;
+}
+
 INLINE vec class_masks(const tables *t, vec values)
 {
-    return masks_of(t, V(set1_epi8)(15), values);
+    const vec nibble = V(set1_epi8)(15), high = high_nibbles(nibble, values);
+    return masks_of(t->channel, nibble, values, high, V(shuffle_epi8)(t->rough, high));
 }
 
 INLINE vec labels_of_masks(vec masks)
 {
-    return labels_of(constants(), V(set1_epi8)(15), masks);
+    const uint8_t *const constant = constants();
+    return V(sub_epi8)(places_of_lowest(constant, V(set1_epi8)(15), masks), nowhere(constant));
 }
