@@ -300,14 +300,15 @@ uint16_t pel_row_find_runs_mve(const uint8_t *labels, uint16_t count, uint16_t *
 
 /* clang-format off */
 
-/* y and c are what decides where the pixels begin: the word of pel_row_pairs, or that of r4, r5
- * that is lower. */
+/* The arguments are those of pel_row_classify_runs. The pixels begin at the first Y, or at the
+ * chroma byte that comes first; which of U and V that is decides over the tables of r2 and r3. */
 #define ENTER(load_pixels) \
     ".syntax unified; push {r4-r11, lr}; vpush {d8-d13}; ldrd r4, r5, [r1, #4]; mov r12, r1;" \
     "add r9, r3, r2; ldrd r1, r8, [r0]; ldr r11, [r0, #8]; lsr lr, r2, #5; mov r10, r2;" \
     "cmp r4, r5; itete lo; movlo r2, r8; movhs r2, r11; movlo r3, r11; movhs r3, r8;" \
     load_pixels \
-    "ldr r5, 7f; ldr r6, [sp, #84]; movs r7, #0; push {r5, r10}; mov r10, #0x80000000;"
+    "movw r5, #:lower16:pel_row_label_of_mask; movt r5, #:upper16:pel_row_label_of_mask;" \
+    "ldr r6, [sp, #84]; movs r7, #0; push {r5, r10}; mov r10, #0x80000000;"
 #define PIXELS_AT_Y "ldr r0, [r12];"
 #define PIXELS_AT_CHROMA "ite lo; movlo r0, r4; movhs r0, r5;"
 
@@ -344,8 +345,7 @@ uint16_t pel_row_find_runs_mve(const uint8_t *labels, uint16_t count, uint16_t *
 /* A run that is open ends behind the last pixel. */
 #define LEAVE \
     "9: pop {r5, r10}; cbz r7, 5f; strh r10, [r6], #2;" \
-    "5: vpop {d8-d13}; ldr r1, [sp, #36]; subs r0, r6, r1; lsrs r0, r0, #2; pop {r4-r11, pc};" \
-    ".balign 4; 7: .word pel_row_label_of_mask;"
+    "5: vpop {d8-d13}; ldr r1, [sp, #36]; subs r0, r6, r1; lsrs r0, r0, #2; pop {r4-r11, pc};"
 
 #define FIND_RUNS(load_pixels, left, right, c, d) \
     __asm__(ENTER(load_pixels) "wls lr, lr, 9f;" NEXT_BLOCK(c, d) LABEL_BLOCK(left, right) \
