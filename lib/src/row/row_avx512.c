@@ -32,15 +32,18 @@ INLINE block load_block(const uint8_t *labels)
     return load(labels);
 }
 
+/* Turned by one, so that its last label comes first. */
 INLINE vec last_of(block b)
 {
-    return b;
+    const vec places = _mm512_setr_epi64(0x060504030201003F, 0x0E0D0C0B0A090807, 0x161514131211100F,
+                                         0x1E1D1C1B1A191817, 0x262524232221201F, 0x2E2D2C2B2A292827,
+                                         0x363534333231302F, 0x3E3D3C3B3A393837);
+    return _mm512_permutexvar_epi8(places, b);
 }
 
 INLINE uint64_t equal_before(vec last, block b)
 {
-    const vec before = _mm512_alignr_epi8(b, _mm512_alignr_epi64(b, last, 6), 15);
-    return _mm512_cmpeq_epi8_mask(before, b);
+    return _mm512_cmpeq_epi8_mask(_mm512_mask_mov_epi8(last_of(b), 1, last), b);
 }
 
 INLINE uint64_t zeros_of(block b)
@@ -78,15 +81,15 @@ typedef struct row {
     const uint8_t *constants;
     const pel_row_pairs *src;
     const uint8_t *bytes;
-    vec nibble, luma_order, chroma_order, twice_u, twice_v;
+    vec nibble, luma_order, chroma_order, twice;
     tables luma, chroma;
 } row;
 
 INLINE vec chroma_table(const uint8_t *nibbles, unsigned which)
 {
-    const vec of_u = table_of(nibbles + PEL_NIBBLES_CHANNEL, which);
-    const vec of_v = table_of(nibbles + 2 * PEL_NIBBLES_CHANNEL, which);
-    return _mm512_shuffle_i64x2(of_u, of_v, 0x44);
+    const __m128i of_v = load16(nibbles + 2 * PEL_NIBBLES_CHANNEL + which);
+    return _mm512_mask_broadcast_i32x4(table_of(nibbles + PEL_NIBBLES_CHANNEL, which), 0xFF00,
+                                       of_v);
 }
 
 /* 0, 1, 2, ... */
@@ -108,7 +111,6 @@ INLINE row row_of(const uint8_t *nibbles, const pel_row_pairs *src)
     const uint8_t *const c = src->u < src->v ? src->u : src->v;
     const uint8_t *const bytes = src->y_step == 2 && src->y < c ? src->y : c;
     const uint8_t *const constant = constants();
-    const vec twice = _mm512_and_si512(_mm512_srli_epi16(counted(), 1), _mm512_set1_epi8(31));
     const vec doubled = _mm512_add_epi8(counted(), counted());
     const vec steps = src->c_step == 4 ? _mm512_add_epi8(doubled, doubled) : doubled;
     const row r = {
@@ -118,8 +120,7 @@ INLINE row row_of(const uint8_t *nibbles, const pel_row_pairs *src)
         everywhere(load16(constant + OF_NIBBLE)),
         _mm512_add_epi8(doubled, _mm512_set1_epi8(bytes < src->y)),
         _mm512_add_epi8(steps, in_halves((size_t)(src->u - bytes), (size_t)(src->v - bytes))),
-        twice,
-        _mm512_add_epi8(twice, _mm512_set1_epi8(32)),
+        _mm512_and_si512(_mm512_srli_epi16(counted(), 1), _mm512_set1_epi8(31)),
         {rough_table(nibbles), table_of(nibbles, PEL_NIBBLES_ABOVE),
          table_of(nibbles, PEL_NIBBLES_BELOW), table_of(nibbles, PEL_NIBBLES_FROM),
          table_of(nibbles, PEL_NIBBLES_TO)},
@@ -177,16 +178,14 @@ INLINE vec masks_by(const tables *t, vec nibble, vec values)
 /* See row_pairs_template.h. */
 INLINE int places_at(const row *r, int is_packed, size_t x, block *places)
 {
-    enum { AND_AND = 0x80 };
-    const vec chroma = masks_by(&r->chroma, r->nibble, chroma_at(r, is_packed, x));
-    vec masks;
+    vec masks = masks_by(&r->chroma, r->nibble, chroma_at(r, is_packed, x));
 
-    if (_mm512_test_epi8_mask(chroma, _mm512_shuffle_i64x2(chroma, chroma, 0x4E)) == 0) {
+    masks = _mm512_and_si512(masks, _mm512_shuffle_i64x2(masks, masks, 0x4E));
+    if (_mm512_test_epi8_mask(masks, masks) == 0) {
         return 0;
     }
-    masks = masks_by(&r->luma, r->nibble, luma_at(r, is_packed, x));
-    masks = _mm512_ternarylogic_epi64(_mm512_permutexvar_epi8(r->twice_u, chroma),
-                                      _mm512_permutexvar_epi8(r->twice_v, chroma), masks, AND_AND);
+    masks = _mm512_and_si512(masks_by(&r->luma, r->nibble, luma_at(r, is_packed, x)),
+                             _mm512_permutexvar_epi8(r->twice, masks));
     *places = places_of_lowest(r->constants, r->nibble, masks);
     return 1;
 }
@@ -205,6 +204,12 @@ INLINE uint16_t *put_edges(uint16_t *edge, uint64_t changes, uint64_t nonzero, u
                            size_t x)
 {
     const uint64_t ends = changes & (nonzero << 1 | inside), begins = changes & nonzero;
+    const uint64_t others = _blsr_u64(changes);
+    if ((_blsr_u64(others) | (ends & begins)) == 0) {
+        edge[0] = (uint16_t)(x + _tzcnt_u64(changes));
+        edge[1] = (uint16_t)(x + _tzcnt_u64(others));
+        return edge + 1 + (others != 0);
+    }
     const unsigned count = (unsigned)(_mm_popcnt_u64(ends) + _mm_popcnt_u64(begins));
     vec first = places_of(inside != 0 ? ends : begins);
     vec second = places_of(inside != 0 ? begins : ends);

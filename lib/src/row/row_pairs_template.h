@@ -151,14 +151,38 @@ INLINE pixels planar_pixels(const row *r, size_t x)
     return p;
 }
 
-/* Where the lowest bits are of the masks of half a block. */
-INLINE vec half_places(const row *r, int is_packed, vec luma, vec chroma)
+/* Half a block on its way to labels: Y and its high nibbles; the classes of its chroma that these
+ * leave; and what they say of the bounds, see row_nibbles.h. */
+typedef struct half {
+    vec luma, high, rough, above, below;
+} half;
+
+INLINE half half_of(const row *r, vec luma, vec chroma)
 {
     const vec high = high_nibbles(r->nibble, luma);
-    const vec rough = V(shuffle_epi8)(rough_table(r->nibbles), high);
-    const vec masks = BITS(and)(masks_of(r->nibbles, r->nibble, luma, high, rough), chroma);
-    const vec places = places_of_lowest(r->constants, r->nibble, masks);
+    const half h = {luma, high, BITS(and)(V(shuffle_epi8)(rough_table(r->nibbles), high), chroma),
+                    V(shuffle_epi8)(table_of(r->nibbles, PEL_NIBBLES_ABOVE), high),
+                    V(shuffle_epi8)(table_of(r->nibbles, PEL_NIBBLES_BELOW), high)};
+    return h;
+}
 
+/* The classes for which the low nibbles of Y decide. */
+INLINE vec doubts_of(half h)
+{
+    return BITS(andnot)(BITS(and)(h.above, h.below), h.rough);
+}
+
+INLINE vec masks_of_half(const row *r, half h)
+{
+    const vec low = BITS(and)(h.luma, r->nibble);
+    const vec from = V(shuffle_epi8)(table_of(r->nibbles, PEL_NIBBLES_FROM), low);
+    const vec to = V(shuffle_epi8)(table_of(r->nibbles, PEL_NIBBLES_TO), low);
+    return BITS(and)(h.rough, BITS(and)(BITS(or)(h.above, from), BITS(or)(h.below, to)));
+}
+
+INLINE vec places_of_half(const row *r, int is_packed, vec masks)
+{
+    const vec places = places_of_lowest(r->constants, r->nibble, masks);
     return is_packed ? eights(places) : places;
 }
 
@@ -172,6 +196,9 @@ INLINE int places_at(const row *r, int is_packed, size_t x, block *places)
     const vec high_u = high_nibbles(r->nibble, p.u), high_v = high_nibbles(r->nibble, p.v);
     vec u = V(shuffle_epi8)(r->rough_u, high_u), v = V(shuffle_epi8)(r->rough_v, high_v);
 
+    half left, right;
+    vec doubts;
+
     if (are_apart(u, v)) {
         return 0;
     }
@@ -181,11 +208,16 @@ INLINE int places_at(const row *r, int is_packed, size_t x, block *places)
         return 0;
     }
     u = BITS(and)(u, v);
-    places->left =
-        half_places(r, is_packed, is_packed ? V(unpackhi_epi64)(p.first, p.others[0]) : p.first,
-                    V(unpacklo_epi8)(u, u));
-    places->right =
-        half_places(r, is_packed, is_packed ? V(unpackhi_epi64)(p.second, p.others[1]) : p.second,
+    left = half_of(r, is_packed ? V(unpackhi_epi64)(p.first, p.others[0]) : p.first,
+                   V(unpacklo_epi8)(u, u));
+    right = half_of(r, is_packed ? V(unpackhi_epi64)(p.second, p.others[1]) : p.second,
                     V(unpackhi_epi8)(u, u));
+    doubts = BITS(or)(doubts_of(left), doubts_of(right));
+    if (!are_apart(doubts, doubts)) {
+        left.rough = masks_of_half(r, left);
+        right.rough = masks_of_half(r, right);
+    }
+    places->left = places_of_half(r, is_packed, left.rough);
+    places->right = places_of_half(r, is_packed, right.rough);
     return 1;
 }
