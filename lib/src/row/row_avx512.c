@@ -198,18 +198,29 @@ INLINE vec places_of(uint64_t bits)
     return _mm512_maskz_compress_epi8(bits, counted());
 }
 
-/* As in row_edges_template.h. Ends and begins of runs take turns: the first ones of either kind are
- * written side by side, then the second ones, and so on, 16 pairs at a time. */
-INLINE uint16_t *put_edges(uint16_t *edge, uint64_t changes, uint64_t nonzero, uint64_t inside,
-                           size_t x)
+/* A place for every bit, 32 at a time: nothing depends on how many there are, which no processor
+ * can foretell. */
+INLINE uint16_t *put_places(uint16_t *edge, uint64_t bits, size_t x)
 {
-    const uint64_t ends = changes & (nonzero << 1 | inside), begins = changes & nonzero;
-    const uint64_t others = _blsr_u64(changes);
-    if ((_blsr_u64(others) | (ends & begins)) == 0) {
-        edge[0] = (uint16_t)(x + _tzcnt_u64(changes));
-        edge[1] = (uint16_t)(x + _tzcnt_u64(others));
-        return edge + 1 + (others != 0);
+    const vec base = _mm512_set1_epi16((int16_t)x), all = places_of(bits);
+    const unsigned count = (unsigned)_mm_popcnt_u64(bits);
+    const vec low = _mm512_cvtepu8_epi16(_mm512_castsi512_si256(all));
+
+    _mm512_mask_storeu_epi16(edge, _bzhi_u32(0xFFFFFFFF, count), _mm512_add_epi16(low, base));
+    if (count > 32) {
+        const vec high = _mm512_cvtepu8_epi16(_mm512_extracti64x4_epi64(all, 1));
+        _mm512_mask_storeu_epi16(edge + 32, _bzhi_u32(0xFFFFFFFF, count - 32),
+                                 _mm512_add_epi16(high, base));
     }
+    return edge + count;
+}
+
+/* The same where at some places a run ends and the next one begins. Ends and begins of runs take
+ * turns: the first ones of either kind are written side by side, then the second ones, and so on,
+ * 16 pairs at a time. */
+INLINE uint16_t *put_some_twice(uint16_t *edge, uint64_t ends, uint64_t begins, uint64_t inside,
+                                size_t x)
+{
     const unsigned count = (unsigned)(_mm_popcnt_u64(ends) + _mm_popcnt_u64(begins));
     vec first = places_of(inside != 0 ? ends : begins);
     vec second = places_of(inside != 0 ? begins : ends);
@@ -224,6 +235,16 @@ INLINE uint16_t *put_edges(uint16_t *edge, uint64_t changes, uint64_t nonzero, u
         second = _mm512_alignr_epi64(second, second, 2);
     }
     return edge + count;
+}
+
+/* As in row_edges_template.h. */
+INLINE uint16_t *put_edges(uint16_t *edge, uint64_t changes, uint64_t nonzero, uint64_t inside,
+                           size_t x)
+{
+    const uint64_t ends = changes & (nonzero << 1 | inside), begins = changes & nonzero;
+
+    return (ends & begins) == 0 ? put_places(edge, changes, x)
+                                : put_some_twice(edge, ends, begins, inside, x);
 }
 
 #include "row/row_classify_template.h"
