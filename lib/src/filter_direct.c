@@ -60,6 +60,13 @@ static void compute(const direct *d, const uint8_t *const rows[], uint16_t count
         return 1;                                                                                  \
     }
 
+APART static void kernel_at_once(const pel_filter_config *c, const uint8_t *const rows[],
+                                 uint16_t width, uint16_t count, const pel_filter_target *to)
+{
+    const pel_row_taps taps = {c->kernel->tap, pel_i_filter_scale(c->kernel)};
+    pel_i_row_kernel3_rows(c->backend, rows, &taps, width, count, to->bytes, to->stride);
+}
+
 APART static int bytes_at_once(const pel_filter_config *c, const uint8_t *const rows[],
                                uint16_t width, uint16_t count, const pel_filter_target *to)
 {
@@ -68,6 +75,10 @@ APART static int bytes_at_once(const pel_filter_config *c, const uint8_t *const 
     AT_ONCE(pel_op_gradient, gradient)
     AT_ONCE(pel_op_min, min3)
     AT_ONCE(pel_op_max, max3)
+    if (!c->op && c->kernel->radius == 1) {
+        kernel_at_once(c, rows, width, count, to);
+        return 1;
+    }
     return 0;
 }
 
@@ -117,35 +128,54 @@ typedef struct sides {
     uint8_t constant;
 } sides;
 
-/* r is 1 or 2. Bytes put together in a register: they are read at once, soon after. */
-static inline void put_record(const sides *s, const uint8_t *row, unsigned r, uint8_t *record)
+static inline uint8_t outside(const sides *s, const uint8_t *row, int32_t x)
 {
-    const uint8_t *const last = row + s->width - 2 * r;
+    return x < 0 ? s->constant : row[x];
+}
 
-    for (unsigned i = 0; i < r; i++) {
-        record[r - 1 - i] = s->left[i] < 0 ? s->constant : row[s->left[i]];
-        record[5 * r + i] = s->right[i] < 0 ? s->constant : row[s->right[i]];
+/* For r = 1: put together in a register, as stores of single bytes would be what takes longest. */
+static inline void put_record3(const sides *s, const uint8_t *row, uint8_t *record)
+{
+    const uint8_t *const last = row + s->width - 2;
+    const uint32_t front = (uint32_t)outside(s, row, s->left[0]) | (uint32_t)row[0] << 8 |
+                           (uint32_t)row[1] << 16 | (uint32_t)last[0] << 24;
+    const uint32_t back = (uint32_t)last[1] | (uint32_t)outside(s, row, s->right[0]) << 8;
+
+    for (unsigned i = 0; i < 4; i++) {
+        record[i] = (uint8_t)(front >> 8 * i);
     }
-    for (unsigned i = 0; i < 2 * r; i++) {
-        record[r + i] = row[i];
-        record[3 * r + i] = last[i];
+    record[4] = (uint8_t)back;
+    record[5] = (uint8_t)(back >> 8);
+}
+
+static inline void put_record5(const sides *s, const uint8_t *row, uint8_t *record)
+{
+    const uint8_t *const last = row + s->width - 4;
+
+    for (unsigned i = 0; i < 2; i++) {
+        record[1 - i] = outside(s, row, s->left[i]);
+        record[10 + i] = outside(s, row, s->right[i]);
+    }
+    for (unsigned i = 0; i < 4; i++) {
+        record[2 + i] = row[i];
+        record[6 + i] = last[i];
     }
 }
 
-static void put_records(const direct *d, const uint8_t *const rows[], unsigned count)
+APART static void put_records(const direct *d, const uint8_t *const rows[], unsigned count)
 {
     const pel_filter *const f = d->filter;
     const sides s = {
         {f->left[0], f->left[1]}, {f->right[0], f->right[1]}, f->config.width, f->config.constant};
     uint8_t *record = d->records;
 
-    for (unsigned i = 0; i < count; i++) {
-        if (f->radius == 1) { /* known sizes: no loops are left */
-            put_record(&s, rows[i] - 1, 1, record);
-            record += 6;
-        } else {
-            put_record(&s, rows[i] - 2, 2, record);
-            record += 12;
+    if (f->radius == 1) {
+        for (unsigned i = 0; i < count; i++, record += 6) {
+            put_record3(&s, rows[i] - 1, record);
+        }
+    } else {
+        for (unsigned i = 0; i < count; i++, record += 12) {
+            put_record5(&s, rows[i] - 2, record);
         }
     }
 }

@@ -218,6 +218,18 @@ static taps draw(uint32_t seed)
         return take_words(run, words);                                                             \
     }
 
+#if defined(PEL_ROW_FILTER_X86)
+static size_t kernel3_rows(pel_backend backend, const equal_run *run)
+{
+    const taps t = draw(run->seed);
+    const pel_row_taps all = {t.tap, t.scale};
+    window w = window_of(run, 1);
+    pel_i_row_kernel3_rows(backend, w.rows, &all, run->width, AT_ONCE, run->out, run->width);
+    drop(&w);
+    return (size_t)AT_ONCE * run->width;
+}
+#endif
+
 TAPS_BYTES(kernel3, 1)
 TAPS_WORDS(kernel3_s16, 1)
 TAPS_BYTES(kernel5, 2)
@@ -294,5 +306,6 @@ const equal_kernel equal_filter_kernels[] = {{"gauss3", gauss3, 0},
                                              {"gradient, rows", gradient_rows, 0},
                                              {"min3, rows", min3_rows, 0},
                                              {"max3, rows", max3_rows, 0},
+                                             {"kernel3, rows", kernel3_rows, 0},
 #endif
                                              {NULL, NULL, 0}};

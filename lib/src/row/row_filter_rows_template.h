@@ -275,3 +275,42 @@ INLINE void max3_strip(const uint8_t *const rows[], int x, int height, uint8_t *
 }
 
 ROWS(max3, uint8_t)
+
+/* ---- Taps of one's own --------------------------------------------------------------------- */
+
+INLINE void kernel3_strip(const uint8_t *const rows[], int height, const narrow3 *all, int x,
+                          uint8_t *out, ptrdiff_t stride)
+{
+    for (int y = 0; y < height; y++, out += stride) {
+        const parities sums = narrow3_at(all, rows[y] + x, rows[y + 1] + x, rows[y + 2] + x);
+        store(out + x, bytes_of(sums));
+    }
+}
+
+/* As ROWS has it, with taps. */
+INLINE void narrow_rows3(const uint8_t *const rows[], int count, int height, const narrow3 *all,
+                         uint8_t *out, ptrdiff_t stride)
+{
+    const int skew = (int)((uintptr_t)out % LANES), last = count - LANES;
+
+    kernel3_strip(rows, height, all, 0, out, stride);
+    for (int x = LANES - skew; x < last; x += LANES) {
+        kernel3_strip(rows, height, all, x, out, stride);
+    }
+    kernel3_strip(rows, height, all, last, out, stride);
+}
+
+ISA void KERNEL(kernel3_rows)(const uint8_t *const rows[], const pel_row_taps *taps, uint16_t count,
+                              uint16_t height, uint8_t *out, ptrdiff_t stride)
+{
+    pel_row_narrow narrow;
+
+    if (pel_i_row_narrow(taps->tap, 1, &taps->scale, &narrow)) {
+        const narrow3 all = narrow3_of(taps->tap, &narrow);
+        narrow_rows3(rows, count, height, &all, out, stride);
+    } else {
+        for (unsigned y = 0; y < height; y++) {
+            KERNEL(kernel3)(rows + y, taps->tap, &taps->scale, count, out + (ptrdiff_t)y * stride);
+        }
+    }
+}

@@ -85,6 +85,16 @@ PEL_ROW_SELECT_ROWS(gradient_abs, uint8_t)
 PEL_ROW_SELECT_ROWS(gradient, uint8_t)
 PEL_ROW_SELECT_ROWS(min3, uint8_t)
 PEL_ROW_SELECT_ROWS(max3, uint8_t)
+
+static inline void pel_i_row_kernel3_rows(pel_backend backend, const uint8_t *const rows[],
+                                          const pel_row_taps *taps, uint16_t count, uint16_t height,
+                                          uint8_t *out, ptrdiff_t stride)
+{
+    PEL_ROW_TRY(kernel3_rows, (rows, taps, count, height, out, stride))
+    for (unsigned y = 0; y < height; y++) {
+        pel_row_kernel3(rows + y, taps->tap, &taps->scale, count, out + (ptrdiff_t)y * stride);
+    }
+}
 #endif
 
 /* pel_i_row_NAME(backend, rows, tap, scale, count, out) */

@@ -124,21 +124,37 @@ INLINE parities narrow_results(parities sums, const pel_row_narrow *narrow,
     return results;
 }
 
+/* All that the sums of 3x3 need. */
+typedef struct narrow3 {
+    taps3 upper, middle, lower;
+    narrow_scale scale;
+    pel_row_narrow narrow; /* a copy that results cannot alias */
+} narrow3;
+
+INLINE narrow3 narrow3_of(const int8_t *t, const pel_row_narrow *narrow)
+{
+    const narrow3 all = {taps3_of(t[0], t[1], t[2]), taps3_of(t[3], t[4], t[5]),
+                         taps3_of(t[6], t[7], t[8]), narrow_scale_of(narrow), *narrow};
+    return all;
+}
+
+INLINE parities narrow3_at(const narrow3 *all, const uint8_t *a, const uint8_t *b, const uint8_t *c)
+{
+    const parities sums =
+        sum_of_parities(ready(sum_of_parities(row_sum3(a, &all->upper), row_sum3(b, &all->middle))),
+                        row_sum3(c, &all->lower));
+    return narrow_results(sums, &all->narrow, &all->scale);
+}
+
 INLINE void narrow_kernel3(const uint8_t *const rows[], const int8_t *t,
                            const pel_row_narrow *narrow, int count, void *out, int bytes)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    const taps3 upper = taps3_of(t[0], t[1], t[2]), middle = taps3_of(t[3], t[4], t[5]);
-    const taps3 lower = taps3_of(t[6], t[7], t[8]);
-    const pel_row_narrow copy = *narrow; /* that out cannot alias */
-    const narrow_scale scale = narrow_scale_of(narrow);
+    const narrow3 all = narrow3_of(t, narrow);
 
     for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
         for (; x < end; x += LANES) {
-            const parities sums = sum_of_parities(
-                ready(sum_of_parities(row_sum3(a + x, &upper), row_sum3(b + x, &middle))),
-                row_sum3(c + x, &lower));
-            store_parities(out, x, bytes, narrow_results(sums, &copy, &scale));
+            store_parities(out, x, bytes, narrow3_at(&all, a + x, b + x, c + x));
         }
     }
 }

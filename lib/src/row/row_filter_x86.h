@@ -22,6 +22,11 @@ enum { PEL_ROW_LANES_SSSE3 = 16, PEL_ROW_LANES_AVX2 = 32, PEL_ROW_LANES_AVX512 =
 #define PEL_ROW_ROWS(name, isa, pixel)                                                             \
     void pel_row_##name##_rows_##isa(const uint8_t *const rows[], uint16_t count, uint16_t height, \
                                      pixel *out, ptrdiff_t stride)
+typedef struct pel_row_taps {
+    const int8_t *tap;
+    pel_row_scale scale;
+} pel_row_taps;
+
 #define PEL_ROW_FILTERS_ROWS(isa)                                                                  \
     PEL_ROW_ROWS(gauss3, isa, uint8_t);                                                            \
     PEL_ROW_ROWS(sobel_x, isa, int16_t);                                                           \
@@ -29,7 +34,10 @@ enum { PEL_ROW_LANES_SSSE3 = 16, PEL_ROW_LANES_AVX2 = 32, PEL_ROW_LANES_AVX512 =
     PEL_ROW_ROWS(gradient_abs, isa, uint8_t);                                                      \
     PEL_ROW_ROWS(gradient, isa, uint8_t);                                                          \
     PEL_ROW_ROWS(min3, isa, uint8_t);                                                              \
-    PEL_ROW_ROWS(max3, isa, uint8_t)
+    PEL_ROW_ROWS(max3, isa, uint8_t);                                                              \
+    void pel_row_kernel3_rows_##isa(const uint8_t *const rows[], const pel_row_taps *taps,         \
+                                    uint16_t count, uint16_t height, uint8_t *out,                 \
+                                    ptrdiff_t stride)
 
 PEL_ROW_FILTERS(ssse3);
 PEL_ROW_FILTERS(avx2);
