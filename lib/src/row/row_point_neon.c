@@ -123,24 +123,23 @@ INLINE int is_zero(vec v)
 
 /* ---- Tables -------------------------------------------------------------------------------- */
 
-/* A quarter of the table each; where a value is of none of them, it stays as it was. */
-INLINE vec mapped(vec v, const uint8x16x4_t quarters[4])
-{
-    vec out = vqtbl4q_u8(quarters[0], v);
-    out = vqtbx4q_u8(out, quarters[1], vsubq_u8(v, vdupq_n_u8(64)));
-    out = vqtbx4q_u8(out, quarters[2], vsubq_u8(v, vdupq_n_u8(128)));
-    return vqtbx4q_u8(out, quarters[3], vsubq_u8(v, vdupq_n_u8(192)));
-}
+/* Four quarters of the table; where a value is of none of those looked at, it stays as it was. */
+#define MAPPED(v)                                                                                  \
+    vqtbx4q_u8(vqtbx4q_u8(vqtbx4q_u8(vqtbl4q_u8(first, v), second, vsubq_u8(v, quarter)), third,   \
+                          vsubq_u8(v, half)),                                                      \
+               fourth, vsubq_u8(v, vaddq_u8(quarter, half)))
 
 void pel_row_map_neon(const uint8_t *src, uint16_t count, const uint8_t *table, uint8_t *dst)
 {
-    const uint8x16x4_t quarters[4] = {vld1q_u8_x4(table), vld1q_u8_x4(table + 64),
-                                      vld1q_u8_x4(table + 128), vld1q_u8_x4(table + 192)};
+    const uint8x16x4_t first = vld1q_u8_x4(table), second = vld1q_u8_x4(table + 64);
+    const uint8x16x4_t third = vld1q_u8_x4(table + 128), fourth = vld1q_u8_x4(table + 192);
+    const vec quarter = vdupq_n_u8(64), half = vdupq_n_u8(128);
     const int end = count - LANES;
-    const vec last = mapped(load(src + end), quarters);
+    const vec last_in = load(src + end), last = MAPPED(last_in);
 
     for (int x = 0; x < end; x += LANES) {
-        store(dst + x, mapped(load(src + x), quarters));
+        const vec v = load(src + x);
+        store(dst + x, MAPPED(v));
     }
     store(dst + end, last);
 }

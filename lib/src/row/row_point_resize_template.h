@@ -77,16 +77,17 @@ ISA void KERNEL(box_mean)(const uint32_t *sums, uint32_t area, uint16_t count, u
 ISA void KERNEL(bilinear)(const pel_row_between *rows, const pel_row_place *places, uint16_t count,
                           uint8_t *dst)
 {
+    const pel_row_between between = *rows; /* which no result can be written over */
     const int rightmost = rows->last - 15;
     uint16_t i = 0;
 
     for (; i + 8 <= count; i = (uint16_t)(i + 8)) {
         const int base = places[i].x < rightmost ? places[i].x : rightmost;
-        const int end = places[i + 7].x + (places[i + 7].x < rows->last);
+        const int end = places[i + 7].x + (places[i + 7].x < between.last);
         if (end - base > 15) {
             pel_row_bilinear(rows, places + i, 1, 8, dst + i);
         } else {
-            eight_means(rows, places + i, base, dst + i);
+            eight_means(&between, places + i, base, dst + i);
         }
     }
     pel_row_bilinear(rows, places + i, 1, (uint16_t)(count - i), dst + i);

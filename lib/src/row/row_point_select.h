@@ -180,6 +180,12 @@ static inline void pel_i_row_over_mean(pel_backend backend, const uint8_t *src,
                                        const uint16_t *columns, uint16_t count, uint16_t radius,
                                        int16_t c, uint8_t *dst)
 {
+#if defined(PEL_ROW_POINT_X86)
+    /* Wide vectors leave more to be done one by one between the ends. */
+    if (backend > PEL_BACKEND_SSSE3 && count < 4 * PEL_ROW_POINT_AVX2) {
+        backend = PEL_BACKEND_SSSE3;
+    }
+#endif
     PEL_ROW_TRY_POINT(over_mean, (src, columns, count, radius, c, dst))
     pel_row_over_mean(src, columns, count, radius, c, dst);
 }
