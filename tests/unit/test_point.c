@@ -225,6 +225,32 @@ static void test_table_on_frames(void)
     EXPECT(PEL_ERR_ARG, pel_table_row(table, pixels, 6, NULL));
 }
 
+/* Every value in rows wide enough for any vector, twice. */
+static void test_thresholds_on_every_backend(void)
+{
+    static uint8_t pixels[512], out[512];
+    const pel_cview src = gray(pixels, 128, 4);
+    const pel_view dst = gray_to_write(out, 128, 4);
+
+    for (unsigned i = 0; i < 512; i++) {
+        pixels[i] = (uint8_t)i;
+    }
+    EXPECT(PEL_OK, pel_table_threshold(99, table));
+    for (unsigned b = 0; b < PEL_BACKEND_COUNT; b++) {
+        for (unsigned i = 0; i < 512; i++) {
+            out[i] = 7;
+        }
+        EXPECT(PEL_OK, pel_table_frame_with(table, &src, &dst, (pel_backend)b));
+        for (unsigned i = 0; i < 512; i++) {
+            TEST_ASSERT_EQUAL_UINT8(i % 256 > 99 ? 255 : 0, out[i]);
+        }
+        EXPECT(PEL_OK, pel_histogram_frame_with(&src, 0, bins, (pel_backend)b));
+        for (unsigned i = 0; i < 256; i++) {
+            TEST_ASSERT_EQUAL_UINT32(2, bins[i]);
+        }
+    }
+}
+
 /* What all frame forms check: overlap, size, format, null pointers. */
 static void test_frames_that_are_refused(void)
 {
@@ -550,6 +576,7 @@ int main(void)
     RUN_TEST(test_linear_limits);
     RUN_TEST(test_invert_and_threshold);
     RUN_TEST(test_table_on_frames);
+    RUN_TEST(test_thresholds_on_every_backend);
     RUN_TEST(test_frames_that_are_refused);
     RUN_TEST(test_parts_of_one_picture);
     RUN_TEST(test_histogram);
