@@ -69,6 +69,8 @@ const bench_op bench_ops[] = {
     BLOBS("blobs-all", "with moments and outline", PEL_MEASURE_MOMENTS | PEL_MEASURE_OUTLINE),
     {"classify", "YUYV to labels", BENCH_YUYV, 1, benchruns_start_classify, benchruns_classify,
      NULL, NULL, NULL, NULL, NULL, 0, SAME},
+    {"classify-rgb", "R G B to labels", BENCH_RGB, 1, benchruns_start_classify, benchruns_classify,
+     NULL, NULL, NULL, NULL, NULL, 0, ALONE},
     JOB("runs", "labels to runs", LABELS, runs, runs, ALONE),
     JOB("planes", "YUYV to planes of Y, U and V", YUYV, three, planes, SAME),
     JOB("rgb", "YUYV to R G B", YUYV, three, rgb, COLORS),

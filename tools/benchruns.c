@@ -38,6 +38,8 @@ static int start_classifier(bench_job *job)
     job->classifier.boxes = &job->picture->boxes;
     job->classifier.range = PEL_RANGE_FULL;
     job->classifier.plan = &job->plan;
+    job->classifier.reader = pel_crow_read_yuv; /* of what is not YCbCr */
+    job->classifier.pieces = pel_classify_pieces;
     return pel_classify_plan_make(&job->plan, &job->picture->boxes, job->backend) < 0 ? -1 : 0;
 }
 

@@ -8,6 +8,7 @@
 #define INLINE __attribute__((target("avx2"), always_inline)) static inline
 #define APART __attribute__((target("avx2"), noinline)) static
 #define KERNEL(name) pel_row_##name##_avx2
+#define NARROWER(name) pel_row_##name##_ssse3
 #define V(operation) _mm256_##operation
 #define BITS(operation) _mm256_##operation##_si256
 

@@ -8,7 +8,7 @@
 /* Tries the versions of a kernel in vectors: ends the function that says so where one does it. In
  * shorter rows plain C is through before the constants of a version are set up. */
 #if defined(PEL_ROW_X86)
-enum { PEL_ROW_COLOR_SSSE3 = 12, PEL_ROW_COLOR_AVX2 = 24 };
+enum { PEL_ROW_COLOR_SSSE3 = 16, PEL_ROW_COLOR_AVX2 = 32 };
 
 #define PEL_ROW_TRY_COLOR(name, arguments)                                                         \
     if (backend >= PEL_BACKEND_AVX2 && count >= PEL_ROW_COLOR_AVX2) {                              \
@@ -21,7 +21,7 @@ enum { PEL_ROW_COLOR_SSSE3 = 12, PEL_ROW_COLOR_AVX2 = 24 };
     }                                                                                              \
     return 0;
 #elif defined(PEL_ROW_NEON)
-enum { PEL_ROW_COLOR_NEON = 12 };
+enum { PEL_ROW_COLOR_NEON = 16 };
 
 #define PEL_ROW_TRY_COLOR(name, arguments)                                                         \
     if (backend == PEL_BACKEND_NEON && count >= PEL_ROW_COLOR_NEON) {                              \

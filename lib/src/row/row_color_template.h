@@ -18,7 +18,9 @@
  *     ISA, INLINE, KERNEL      for what a function is compiled, what it is called
  *     APART                    never inlined: its memory is not the caller's
  *
- * The pixels behind the last whole vector are read by plain C into a vector's memory.
+ *     NARROWER(name)           if defined, a kernel of narrower vectors for the rest of a row
+ *
+ * Else the pixels behind the last whole vector are read by plain C into a vector's memory.
  */
 
 static const pel_row_form form_ycbcr = PEL_ROW_FORM_YCBCR;
@@ -114,6 +116,7 @@ INLINE void put(three t, const pel_row_places *dst, size_t x)
     }
 }
 
+#if !defined(NARROWER)
 /* Packed pixels to their places from x on. */
 static void put_bytes(const uint8_t *packed, unsigned count, const pel_row_places *dst, size_t x)
 {
@@ -130,6 +133,7 @@ static pel_row_places packed_places(uint8_t *bytes)
     const pel_row_places places = {bytes, bytes + 1, bytes + 2, 3};
     return places;
 }
+#endif
 
 /* ---- Colours ------------------------------------------------------------------------------- */
 
@@ -146,6 +150,30 @@ INLINE three colors_at(const pel_row_colors *src, size_t x)
     return bayer_at(src->bytes + 2 * x, src->odd + 2 * x, src->order);
 }
 
+#if defined(NARROWER)
+static pel_row_colors colors_from(const pel_row_colors *src, size_t x)
+{
+    const pel_row_colors rest = {src->bytes + (src->kind == PEL_ROW_RGB24 ? 3 : 2) * x,
+                                 src->kind == PEL_ROW_BAYER ? src->odd + 2 * x : NULL, src->kind,
+                                 src->order};
+    return rest;
+}
+
+static void last_to_ycbcr(const pel_row_colors *src, size_t x, uint16_t count, int limited,
+                          const pel_row_places *dst)
+{
+    const size_t skip = x * dst->step;
+    const pel_row_colors rest = colors_from(src, x);
+    const pel_row_places places = {dst->a + skip, dst->b + skip, dst->c + skip, dst->step};
+    NARROWER(colors_to_ycbcr)(&rest, count, limited, &places);
+}
+
+static void last_colors(const pel_row_colors *src, size_t x, uint16_t count, uint8_t *rgb)
+{
+    const pel_row_colors rest = colors_from(src, x);
+    NARROWER(colors_to_rgb)(&rest, count, rgb);
+}
+#else
 /* The last pixels, fewer than a vector, as R G B. */
 static void read_last(const pel_row_colors *src, size_t x, uint16_t count, uint8_t *rgb)
 {
@@ -168,6 +196,12 @@ APART void last_to_ycbcr(const pel_row_colors *src, size_t x, uint16_t count, in
     put_bytes(bytes, count, dst, x);
 }
 
+static void last_colors(const pel_row_colors *src, size_t x, uint16_t count, uint8_t *rgb)
+{
+    read_last(src, x, count, rgb);
+}
+#endif
+
 ISA void KERNEL(colors_to_ycbcr)(const pel_row_colors *src, uint16_t count, int limited,
                                  const pel_row_places *dst)
 {
@@ -188,20 +222,46 @@ ISA void KERNEL(colors_to_rgb)(const pel_row_colors *src, uint16_t count, uint8_
     for (; x + LANES <= count; x += LANES) {
         store3(rgb + 3 * x, colors_at(src, x));
     }
-    read_last(src, x, (uint16_t)(count - x), rgb + 3 * x);
+    if (x < count) {
+        last_colors(src, x, (uint16_t)(count - x), rgb + 3 * x);
+    }
 }
 
 /* ---- Pairs --------------------------------------------------------------------------------- */
 
-ISA void KERNEL(pairs_to_planes)(const pel_row_pairs *src, uint16_t count,
+#if defined(NARROWER)
+static pel_row_pairs pairs_from(const pel_row_pairs *src, size_t x)
+{
+    const size_t skip = x / 2 * src->c_step;
+    const pel_row_pairs rest = {src->y + x * src->y_step, src->u + skip, src->v + skip, src->y_step,
+                                src->c_step};
+    return rest;
+}
+
+static void last_pairs_to_planes(const pel_row_pairs *src, size_t x, uint16_t count,
                                  const pel_row_places *dst)
 {
-    size_t x = 0;
+    const pel_row_pairs rest = pairs_from(src, x);
+    const pel_row_places places = {dst->a + x, dst->b + x, dst->c + x, 1};
+    NARROWER(pairs_to_planes)(&rest, count, &places);
+}
 
-    for (; x + LANES <= count; x += LANES) {
-        put(pairs_at(src, x), dst, x);
-    }
-    pel_row_read_pairs(src, (uint16_t)x, (uint16_t)(count - x), dst->a + x, dst->b + x, dst->c + x);
+static void last_to_rgb(const uint8_t *ycbcr, uint16_t count, int limited, uint8_t *rgb)
+{
+    NARROWER(ycbcr_to_rgb)(ycbcr, count, limited, rgb);
+}
+
+static void last_pairs_to_rgb(const pel_row_pairs *src, size_t x, uint16_t count, int limited,
+                              uint8_t *rgb)
+{
+    const pel_row_pairs rest = pairs_from(src, x);
+    NARROWER(pairs_to_rgb)(&rest, count, limited, rgb + 3 * x);
+}
+#else
+static void last_pairs_to_planes(const pel_row_pairs *src, size_t x, uint16_t count,
+                                 const pel_row_places *dst)
+{
+    pel_row_read_pairs(src, (uint16_t)x, count, dst->a + x, dst->b + x, dst->c + x);
 }
 
 APART void last_to_rgb(const uint8_t *ycbcr, uint16_t count, int limited, uint8_t *rgb)
@@ -224,6 +284,20 @@ APART void last_pairs_to_rgb(const pel_row_pairs *src, size_t x, uint16_t count,
     three last = {load(planes), load(planes + LANES), load(planes + 2 * LANES)};
     store3(planes, rgb_of(last, limited));
     put_bytes(planes, count, &out, x);
+}
+#endif
+
+ISA void KERNEL(pairs_to_planes)(const pel_row_pairs *src, uint16_t count,
+                                 const pel_row_places *dst)
+{
+    size_t x = 0;
+
+    for (; x + LANES <= count; x += LANES) {
+        put(pairs_at(src, x), dst, x);
+    }
+    if (x < count) {
+        last_pairs_to_planes(src, x, (uint16_t)(count - x), dst);
+    }
 }
 
 ISA void KERNEL(pairs_to_rgb)(const pel_row_pairs *src, uint16_t count, int limited, uint8_t *rgb)
