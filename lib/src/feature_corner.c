@@ -228,13 +228,14 @@ static void keep(pel_corners *f, const pel_corner *corner)
 /*
  * 16 times the vertex of the parabola through (-1, before), (0, top), (1, after), top the largest:
  * 8 (after - before) / (2 top - before - after), that is steep / bend. |after - before| is not over
- * the divisor, so the result is within -8..8. With 8 added it is found bit by bit. Values < 2^39.
+ * the divisor, so the result is within -8..8. With 8 added it is found bit by bit. Values < 2^40.
  */
 static int8_t vertex_q4(int32_t before, int32_t top, int32_t after)
 {
     const int64_t steep = 8 * ((int64_t)after - before);
     const int64_t bend = 2 * (int64_t)top - before - after;
-    int64_t part = 32 * bend, rest = 2 * steep + 17 * bend;
+    const uint64_t part = 32 * (uint64_t)bend;
+    uint64_t rest = (uint64_t)(2 * steep + 17 * bend);
     int quotient = 0;
 
     if (bend == 0) {
@@ -246,7 +247,7 @@ static int8_t vertex_q4(int32_t before, int32_t top, int32_t after)
             rest -= part;
             quotient++;
         }
-        part /= 2;
+        rest *= 2;
     }
     return (int8_t)(quotient - 8);
 }
@@ -287,26 +288,22 @@ static void report(pel_corners *f, const int32_t *const rows[3], uint16_t x, uin
     }
 }
 
-static uint16_t next_corner(const pel_corners *f, const int32_t *const rows[3], uint16_t begin)
-{
-    const pel_corners_config *const c = &f->config;
-    return pel_i_row_next_top(c->backend, rows, begin, c->width, c->threshold, (int)c->suppress);
-}
-
 static void finish(pel_corners *f, uint16_t y)
 {
-    const uint16_t width = f->config.width;
+    const pel_corners_config *const c = &f->config;
     const int32_t *rows[3];
 
-    if (y + 1 == f->config.height) {
-        fill_responses(response_row(f, y + 1u), no_response, 0, f->config.width);
+    if (y + 1 == c->height) {
+        fill_responses(response_row(f, y + 1u), no_response, 0, c->width);
     }
     for (uint32_t i = 0; i < 3; i++) {
         rows[i] = response_row(f, y + i + 2u); /* row y - 1 + i is in slot y + 2 + i, modulo 3 */
     }
-    for (uint16_t x = next_corner(f, rows, 0); x < width;
-         x = next_corner(f, rows, (uint16_t)(x + 1))) {
-        report(f, rows, x, y);
+    for (uint16_t x = 0; x < c->width; x++) {
+        x = pel_i_row_next_top(c->backend, rows, x, c->width, c->threshold, (int)c->suppress);
+        if (x < c->width) {
+            report(f, rows, x, y);
+        }
     }
 }
 

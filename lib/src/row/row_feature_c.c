@@ -65,30 +65,30 @@ static int32_t smaller_eigenvalue(const tensor *t)
     return (int32_t)(((uint32_t)(t->xx + t->yy) - up) >> 1);
 }
 
-void pel_row_harris(const uint8_t *const rows[], uint16_t count, uint16_t k_q15, int32_t *responses)
+/* With no_weight: the smaller eigenvalue, not Harris's measure. */
+static const uint16_t no_weight = 0xffff;
+
+static void respond(const uint8_t *const rows[], uint16_t count, uint16_t k_q15, int32_t *responses)
 {
     tensor left = tensor_column(rows, -1), middle = tensor_column(rows, 0);
 
     for (int x = 0; x < count; x++) {
         const tensor right = tensor_column(rows, x + 1);
         const tensor sum = tensor_sum(&left, &middle, &right);
-        responses[x] = harris_of(&sum, k_q15);
+        responses[x] = k_q15 == no_weight ? smaller_eigenvalue(&sum) : harris_of(&sum, k_q15);
         left = middle;
         middle = right;
     }
 }
 
+void pel_row_harris(const uint8_t *const rows[], uint16_t count, uint16_t k_q15, int32_t *responses)
+{
+    respond(rows, count, k_q15, responses);
+}
+
 void pel_row_shi_tomasi(const uint8_t *const rows[], uint16_t count, int32_t *responses)
 {
-    tensor left = tensor_column(rows, -1), middle = tensor_column(rows, 0);
-
-    for (int x = 0; x < count; x++) {
-        const tensor right = tensor_column(rows, x + 1);
-        const tensor sum = tensor_sum(&left, &middle, &right);
-        responses[x] = smaller_eigenvalue(&sum);
-        left = middle;
-        middle = right;
-    }
+    respond(rows, count, no_weight, responses);
 }
 
 /* ---- Refinement ---------------------------------------------------------------------------- */
@@ -170,14 +170,22 @@ void pel_row_fast9(const uint8_t *const rows[], uint16_t count, int16_t threshol
 /* Over those before it, in raster order, and over or at least at those behind it. */
 static int is_top(const int32_t *const rows[], int x, int kind)
 {
-    const int32_t *const above = rows[0] + x, *const row = rows[1] + x, *const below = rows[2] + x;
+    const int32_t *const row = rows[1] + x;
     const int32_t r = row[0];
-    /* r - 1 cannot wrap, as the threshold is at least 1 */
-    const int32_t most = kind == PEL_ROW_TOP_STRICT ? r - 1 : r;
+    const int32_t most = r - kind; /* cannot wrap, as the threshold is at least 1 */
 
-    return kind == PEL_ROW_TOP_ANY ||
-           (r > above[-1] && r > above[0] && r > above[1] && r > row[-1] && row[1] <= most &&
-            below[-1] <= most && below[0] <= most && below[1] <= most);
+    if (kind == PEL_ROW_TOP_ANY) {
+        return 1;
+    }
+    if (row[-1] >= r || row[1] > most) {
+        return 0;
+    }
+    for (int i = x - 1; i <= x + 1; i++) {
+        if (rows[0][i] >= r || rows[2][i] > most) {
+            return 0;
+        }
+    }
+    return 1;
 }
 
 uint16_t pel_row_next_top(const int32_t *const rows[], uint16_t begin, uint16_t end,
