@@ -2,6 +2,7 @@
 
 #include "overlap.h"
 #include "row/row_feature_select.h"
+#include "row/row_filter_best.h"
 
 /* ---- Working memory ------------------------------------------------------------------------ */
 
@@ -39,9 +40,7 @@ static void put_gray(const pel_corners *f, const uint8_t *src, uint8_t *row)
 {
     const int width = f->config.width;
 
-    for (int x = 0; x < width; x++) {
-        row[x] = src[x];
-    }
+    PEL_BEST_COPY(src, f->config.width, row);
     for (int i = 1; i <= f->radius; i++) {
         row[-i] = src[0];
         row[width - 1 + i] = src[width - 1];

@@ -2,6 +2,7 @@
 
 #include "overlap.h"
 #include "row/row_feature_select.h"
+#include "row/row_filter_best.h"
 
 /* ---- Working memory ------------------------------------------------------------------------ */
 
@@ -82,9 +83,7 @@ pel_status pel_canny_push(pel_canny *f, const uint8_t *gray)
         return PEL_ERR_ORDER;
     }
     row = gray_row(f, f->pushed);
-    for (int x = 0; x < f->config.width; x++) {
-        row[x] = gray[x];
-    }
+    PEL_BEST_COPY(gray, f->config.width, row);
     row[-1] = row[0];
     row[f->config.width] = row[f->config.width - 1];
     f->pushed++;
@@ -228,14 +227,9 @@ static int has_passed(const sweep *s, uint16_t x, uint16_t y)
     return s->up ? !before : before;
 }
 
+/* To be looked at, now or when the sweep comes to it. */
 static void promote(sweep *s, uint16_t x, uint16_t y)
 {
-    uint8_t *const pixel = map_row(s->map, y) + x;
-
-    if (*pixel != PEL_CANNY_WEAK) {
-        return;
-    }
-    *pixel = PEL_CANNY_STRONG;
     if (s->stacked < s->stack_max) {
         s->stack[s->stacked].x = x;
         s->stack[s->stacked].y = y;
@@ -250,17 +244,18 @@ static void promote_around(sweep *s, uint16_t x, uint16_t y)
     const uint16_t x0 = (uint16_t)(x > 0 ? x - 1 : 0), y0 = (uint16_t)(y > 0 ? y - 1 : 0);
 
     for (uint16_t v = y0; v <= y + 1 && v < s->map->height; v++) {
+        uint8_t *const row = map_row(s->map, v);
         for (uint16_t u = x0; u <= x + 1 && u < s->map->width; u++) {
-            promote(s, u, v);
+            if (row[u] == PEL_CANNY_WEAK) {
+                row[u] = PEL_CANNY_STRONG;
+                promote(s, u, v);
+            }
         }
     }
 }
 
 static void visit(sweep *s)
 {
-    if (map_row(s->map, s->at.y)[s->at.x] != PEL_CANNY_STRONG) {
-        return;
-    }
     promote_around(s, s->at.x, s->at.y);
     while (s->stacked > 0) {
         s->stacked--;
@@ -274,10 +269,15 @@ static void run_sweep(sweep *s)
 
     s->missed = 0;
     for (uint16_t j = 0; j < height; j++) {
-        s->at.y = (uint16_t)(s->up ? height - 1 - j : j);
+        const uint16_t y = (uint16_t)(s->up ? height - 1 - j : j);
+        const uint8_t *const row = map_row(s->map, y);
+        s->at.y = y;
         for (uint16_t i = 0; i < width; i++) {
-            s->at.x = (uint16_t)(s->up ? width - 1 - i : i);
-            visit(s);
+            const uint16_t x = (uint16_t)(s->up ? width - 1 - i : i);
+            if (row[x] == PEL_CANNY_STRONG) {
+                s->at.x = x;
+                visit(s);
+            }
         }
     }
 }
