@@ -6,16 +6,22 @@
 #include "overlap.h"
 #include "pel/blobs.h"
 
-/* Its sums grow to the bounds that pel_blobs_begin enforces: area <= 2^22, sum_x, sum_y < 2^32. */
+/*
+ * Its sums grow to the bounds that pel_blobs_begin enforces: area <= 2^22, sum_x, sum_y < 2^32.
+ *
+ * One comparison of `root` tells whether a run of a label may be added to the slot that a run above
+ * names: see pel_i_of_label.
+ */
 struct pel_blob_slot {
+    uint32_t root; /* the parent, itself for a root; label << 16; BROKEN if a run was lost */
     uint32_t area; /* in the free and in the united list: the next slot */
     uint32_t sum_x, sum_y;
-    uint16_t x0, x1, y0;
-    uint16_t newest; /* the row of its newest run */
-    uint16_t parent; /* itself for a root */
-    uint8_t label;
-    uint8_t broken; /* a run of the blob was lost */
+    pel_run box;     /* x0 and x1 of the box */
+    uint16_t y0;     /* of the box */
+    uint16_t newest; /* its newest run, see pel_i_run_name; in the list of ended blobs: the next */
 };
+
+#define BROKEN ((uint32_t)1 << 24)
 
 /*
  * What is measured beside that takes 64-bit sums, in this order:
@@ -32,8 +38,8 @@ typedef struct pel_blob_slot slot;
 #define LOST 0xFF00u
 #define NO_BLOB 0xFFFFu
 
-/* Ends the lists of slots. */
-#define END 0xFFFFu
+/* Ends the lists of slots. Thumb-2 compares with it at once. */
+#define END 0xFF00u
 
 /* Bits of pel_blobs.losses: a run of this row found no slot so far; runs of this row were lost; of
  * the row above; this is the second walk over the row. */
@@ -44,6 +50,44 @@ enum { LATE = 1, LOST_HERE = 2, LOST_ABOVE = 4, SECOND = 8 };
 enum { BEYOND = 0x7F00 };
 
 enum { STATE_IDLE, STATE_ROWS };
+
+/*
+ * Slots are named by where they lie, in steps of 8 bytes: from a name an address is one scaled
+ * addition. So there are at most OPEN_USED of them. More are of no use: a row has not so many runs.
+ */
+enum { SLOT_STEPS = sizeof(struct pel_blob_slot) / 8, OPEN_USED = 0xFF00 / SLOT_STEPS };
+
+static inline slot *pel_i_slot(slot *slots, size_t id)
+{
+    return (slot *)(void *)((unsigned char *)slots + 8 * id);
+}
+
+/* A slot's `root` is this and its own number, and that is all, if it is a root, has the label, and
+ * lost no run. */
+static inline uint32_t pel_i_of_label(unsigned label)
+{
+    return (uint32_t)label << 16;
+}
+
+static inline uint16_t pel_i_parent(const slot *s)
+{
+    return (uint16_t)s->root;
+}
+
+static inline unsigned pel_i_label(const slot *s)
+{
+    return s->root >> 16 & 0xFF;
+}
+
+/* Names a run of this row or of the row above by where its blob is noted, `place`: even, and as
+ * two rows are less than 64 KiB, different for different runs. */
+static inline uint16_t pel_i_run_name(const uint16_t *place)
+{
+    return (uint16_t)(uintptr_t)place;
+}
+
+/* The name of none. */
+enum { NO_RUN = 1 };
 
 /* Takes a closed blob: counts it, asks filter and accept, calls on_blob, keeps it. */
 void pel_i_blobs_report(pel_blobs *b, const pel_blob *blob);

@@ -6,7 +6,9 @@
  *   join     each run to the open blobs whose runs it touches above; blobs that turn out to be one
  *            are united (a union-find forest over the slots)
  *   add      the run to the sums of its blob; one that touches none opens a blob
- * Then a blob that has a run in the row above, but none in this one, has ended and is reported.
+ *   end      a blob where the walk passes its last run in the row above, and it has got none in
+ *            this row
+ * Then the blobs that have ended are reported.
  * United slots are kept, as runs may still refer to them, until a run finds no free slot. Then the
  * runs of the row learn the roots of their trees, the united slots become free, and the runs
  * without get slots now, if there are any. So a blob is lost only if more blobs than slots are open
@@ -14,56 +16,33 @@
  * a row.
  *
  * This file is a part of blobs.c and of blobs_measure.c, which say before it what their blobs
- * measure beyond area, box and sums: clear_extras, unite_extras, touch_extras, add_extras,
+ * measure beyond area, box and sums: set_extras, unite_extras, touch_extras, add_extras,
  * describe_extras. So a program that measures nothing else carries no code for it.
  */
 
-/* What a noisy picture does for many runs stays in the walk, but where size and stack count. */
-#if defined(__OPTIMIZE_SIZE__)
-#define APART_IF_SMALL PEL_I_APART
+/* Not a call, whatever a compiler thinks of the size; but where size counts. */
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
+#define INLINE static inline __attribute__((always_inline))
 #else
-#define APART_IF_SMALL
+#define INLINE static inline
 #endif
 
 /* ---- Slots --------------------------------------------------------------------------------- */
 
 static inline unsigned find_root(slot *slots, unsigned id)
 {
-    while (slots[id].parent != id) {
-        slots[id].parent = slots[slots[id].parent].parent; /* path compression by halving */
-        id = slots[id].parent;
+    for (unsigned up = pel_i_parent(pel_i_slot(slots, id)); up != id;
+         up = pel_i_parent(pel_i_slot(slots, id))) {
+        pel_i_slot(slots, id)->root = pel_i_slot(slots, up)->root; /* path compression by halving */
+        id = pel_i_parent(pel_i_slot(slots, id));
     }
     return id;
 }
 
-static void free_slot(pel_blobs *b, unsigned id)
+static inline void free_slot(pel_blobs *b, unsigned id)
 {
-    b->slots[id].area = b->free_slot;
+    pel_i_slot(b->slots, id)->area = b->free_slot;
     b->free_slot = (uint16_t)id;
-}
-
-/* Opens a blob without pixels in a slot that is free; NULL if there is none. */
-static inline slot *open_blob(pel_blobs *b, unsigned label)
-{
-    const uint16_t id = b->free_slot;
-    slot *const t = &b->slots[id];
-
-    if (id == END) {
-        return NULL;
-    }
-    b->free_slot = (uint16_t)t->area;
-    t->area = 0;
-    t->sum_x = 0;
-    t->sum_y = 0;
-    t->x0 = 0xFFFF;
-    t->x1 = 0;
-    t->y0 = b->next_row;
-    t->parent = id;
-    t->label = (uint8_t)label;
-    t->broken = 0;
-    clear_extras(b, id);
-    b->open_count++;
-    return t;
 }
 
 /* Two different roots become one, which is returned. The other goes to the list of united slots:
@@ -71,17 +50,18 @@ static inline slot *open_blob(pel_blobs *b, unsigned label)
 static inline slot *unite(pel_blobs *b, slot *one, slot *two)
 {
     slot *const t = one < two ? one : two, *const f = one < two ? two : one;
-    const uint16_t from = f->parent;
+    const uint16_t from = pel_i_parent(f);
 
     t->area += f->area;
     t->sum_x += f->sum_x;
     t->sum_y += f->sum_y;
-    t->x0 = f->x0 < t->x0 ? f->x0 : t->x0;
-    t->x1 = f->x1 > t->x1 ? f->x1 : t->x1;
+    t->box.x0 = f->box.x0 < t->box.x0 ? f->box.x0 : t->box.x0;
+    t->box.x1 = f->box.x1 > t->box.x1 ? f->box.x1 : t->box.x1;
     t->y0 = f->y0 < t->y0 ? f->y0 : t->y0;
-    t->broken = (uint8_t)(t->broken | f->broken);
-    unite_extras(b, t->parent, from);
-    f->parent = t->parent;
+    t->root |= f->root & BROKEN;
+    unite_extras(b, pel_i_parent(t), from);
+    f->root = t->root;
+    f->newest = NO_RUN;
     f->area = b->united_slot;
     b->united_slot = from;
     b->open_count--;
@@ -90,76 +70,100 @@ static inline slot *unite(pel_blobs *b, slot *one, slot *two)
 
 /* ---- Runs join blobs ----------------------------------------------------------------------- */
 
-/* A run of the blob `mine`, or of none so far, touches a run of blob `above`: what it has now.
- * Apart, as most runs have one blob above and come without: the walk keeps its registers. */
-PEL_I_APART static slot *join_blob(pel_blobs *b, slot *mine, unsigned above)
-{
-    slot *const t = &b->slots[find_root(b->slots, above)];
-    return !mine || mine == t ? t : unite(b, mine, t);
-}
+/* What a run has found in the row above: its blob, what touch_extras says of the runs that it
+ * touches, and whether it touches one that was lost. */
+typedef struct found {
+    slot *mine;
+    uint32_t touched;
+    int lost;
+} found;
 
-/* Whether a run of the label that ends before `to` touches one that was lost. */
-PEL_I_APART static int touches_lost(const pel_run *above, const uint16_t *id, int to,
-                                    unsigned label)
+/* Adds the runs from `above` on to what a run has found. Apart, as most runs have one blob above
+ * and come without: the walk keeps its registers. */
+PEL_I_APART static void join_all(pel_blobs *b, const pel_run *run, uint32_t of_label,
+                                 const pel_run *above, const uint16_t *id, found *f)
 {
+    const int to = (int)run->x1 + b->reach;
+
     for (; (int)above->x0 < to; above++, id++) {
-        if (*id == LOST + label - 1) {
-            return 1;
+        if (*id >= LOST) {
+            f->lost |= pel_i_of_label(*id + 1 - LOST) == of_label;
+        } else if (((pel_i_slot(b->slots, *id)->root ^ of_label) & pel_i_of_label(0xFF)) == 0) {
+            slot *const t = pel_i_slot(b->slots, find_root(b->slots, *id));
+            f->mine = !f->mine || f->mine == t ? t : unite(b, f->mine, t);
+            f->touched += touch_extras(*run, *above);
         }
     }
-    return 0;
 }
 
-/* A run without a blob above opens one. It is lost if it touches one that was lost, and if there is
- * no slot; but on the first walk over a row it may get one later. Without a slot it answers NULL
- * and *place is what stands for its blob. */
-APART_IF_SMALL static slot *open_or_lose(pel_blobs *b, const pel_run *run, unsigned label, int lost,
-                                         uint16_t *place)
+/* A run that may not open a blob is lost. Without a slot it is not yet on the first walk over a
+ * row, as it may get one later. *place becomes what stands for its blob. */
+PEL_I_APART static void lose_run(pel_blobs *b, const pel_run *run, uint32_t of_label, int lost,
+                                 uint16_t *place)
 {
-    slot *const opened = lost ? NULL : open_blob(b, label);
-
-    if (opened) {
-        return opened;
-    }
     if (!lost && !(b->losses & SECOND)) {
         b->losses = (uint8_t)(b->losses | LATE);
         *place = NO_BLOB;
-        return NULL;
+        return;
     }
     if (!lost) {
         b->counts.lost_opens++;
     }
     b->losses = (uint8_t)(b->losses | LOST_HERE);
     b->counts.lost_px += (uint32_t)(run->x1 - run->x0);
-    *place = (uint16_t)(LOST + label - 1);
-    return NULL;
+    *place = (uint16_t)(LOST - 1 + (of_label >> 16));
 }
 
 /* ---- Blobs gather the pixels of the row ---------------------------------------------------- */
 
 /* n * s is even: where n is odd, s is even. */
-static inline void add_run(const pel_blobs *b, slot *t, pel_run run, unsigned y, uint64_t touched)
+static inline uint32_t sum_of_x(uint32_t x0, uint32_t x1)
 {
-    const uint32_t n = (uint32_t)run.x1 - run.x0, s = (uint32_t)run.x0 + run.x1 - 1;
+    return (x1 - x0) * (x0 + x1 - 1) / 2;
+}
 
-    t->area += n;
-    t->sum_x += n * s / 2;
-    t->sum_y += n * y;
-    if (run.x0 < t->x0) {
-        t->x0 = run.x0;
+/* A run that touches none opens a blob in the first free slot; there is one. */
+static inline slot *open_blob(pel_blobs *b, slot *slots, const pel_run *run, uint32_t of_label)
+{
+    const uint16_t id = b->free_slot;
+    slot *const t = pel_i_slot(slots, id);
+    const uint32_t n = (uint32_t)run->x1 - run->x0;
+    const uint16_t y = b->next_row;
+
+    b->free_slot = (uint16_t)t->area;
+    t->area = n;
+    t->sum_x = sum_of_x(run->x0, run->x1);
+    t->sum_y = n * y;
+    t->box = *run;
+    t->y0 = y;
+    t->root = of_label | id;
+    set_extras(b, id, *run);
+    b->open_count++;
+    return t;
+}
+
+static inline void add_run(const pel_blobs *b, slot *t, unsigned x0, unsigned x1, uint32_t touched)
+{
+    const uint32_t n = (uint32_t)x1 - x0;
+    const uint32_t area = t->area, sum_x = t->sum_x, sum_y = t->sum_y;
+
+    t->area = area + n;
+    t->sum_x = sum_x + sum_of_x(x0, x1);
+    t->sum_y = sum_y + n * b->next_row;
+    if (x0 < t->box.x0) {
+        t->box.x0 = (uint16_t)x0;
     }
-    if (run.x1 > t->x1) {
-        t->x1 = run.x1;
+    if (x1 > t->box.x1) {
+        t->box.x1 = (uint16_t)x1;
     }
-    t->newest = (uint16_t)y;
-    add_extras(b, t->parent, run, touched);
+    add_extras(b, pel_i_parent(t), (pel_run){(uint16_t)x0, (uint16_t)x1}, touched);
 }
 
 /* ---- Blobs that end ------------------------------------------------------------------------ */
 
 PEL_I_APART static void describe(const pel_blobs *b, unsigned id, pel_blob *blob)
 {
-    const slot *const s = &b->slots[id];
+    const slot *const s = pel_i_slot(b->slots, id);
 
     blob->sum_xx = 0;
     blob->sum_xy = 0;
@@ -172,55 +176,77 @@ PEL_I_APART static void describe(const pel_blobs *b, unsigned id, pel_blob *blob
     blob->area = s->area;
     blob->sum_x = s->sum_x;
     blob->sum_y = s->sum_y;
-    blob->x0 = s->x0;
-    blob->x1 = s->x1;
+    blob->x0 = s->box.x0;
+    blob->x1 = s->box.x1;
     blob->y0 = s->y0;
     blob->y1 = b->next_row;
-    blob->class_index = (uint8_t)(s->label - 1);
-    blob->edges = (uint8_t)((s->x0 == 0 ? PEL_EDGE_LEFT : 0) |
-                            (s->x1 == b->config.width ? PEL_EDGE_RIGHT : 0) |
+    blob->class_index = (uint8_t)(pel_i_label(s) - 1);
+    blob->edges = (uint8_t)((s->box.x0 == 0 ? PEL_EDGE_LEFT : 0) |
+                            (s->box.x1 == b->config.width ? PEL_EDGE_RIGHT : 0) |
                             (s->y0 == 0 ? PEL_EDGE_TOP : 0) |
                             (b->next_row == b->config.height ? PEL_EDGE_BOTTOM : 0));
     describe_extras(b, id, blob);
 }
 
-/* The filter lets most blobs of a noisy picture go by their area: those are spared the
- * description. */
-static inline void close_blob(pel_blobs *b, unsigned id)
+/* The walk passes a run of the row above: no run to come touches it. If it is the newest of its
+ * blob, that has ended and goes to the list of those. */
+static inline void pass(pel_blobs *b, slot *slots, const uint16_t *id_above, const int lossy)
 {
-    const slot *const s = &b->slots[id];
+    slot *const t = pel_i_slot(slots, *id_above);
 
-    if (s->broken) {
-        b->counts.lost_px += s->area;
-    } else if (b->config.filter && s->area < b->config.filter->area_min) {
-        b->counts.filtered++;
-        b->counts.filtered_px += s->area;
-    } else {
-        pel_blob blob;
-        describe(b, id, &blob);
-        pel_i_blobs_report(b, &blob);
+    if ((!lossy || *id_above < LOST) && t->newest == pel_i_run_name(id_above)) {
+        t->newest = b->ended_slot;
+        b->ended_slot = *id_above;
     }
-    free_slot(b, id);
-    b->open_count--;
 }
 
-/* Closes the blobs that have runs above and none in this row. Each is closed once: it is given a
- * run in this row. */
+#if defined(__OPTIMIZE_SIZE__)
+#define close_small(b) ((void)(b))
+#else
+/* Closes those of the blobs that have ended that the filter lets go by their area, most of a noisy
+ * picture. They are spared what follows. */
+PEL_I_APART static void close_small(pel_blobs *b)
+{
+    const uint32_t area_min = b->config.filter ? b->config.filter->area_min : 0;
+    uint32_t count = 0, px = 0;
+    uint16_t ended = END;
+
+    for (unsigned id = b->ended_slot, next; id != END; id = next) {
+        slot *const t = pel_i_slot(b->slots, id);
+        const uint32_t area = t->area;
+        next = t->newest;
+        if (t->root & BROKEN || area >= area_min) {
+            t->newest = ended;
+            ended = (uint16_t)id;
+        } else {
+            count++;
+            px += area;
+            free_slot(b, id);
+        }
+    }
+    b->ended_slot = ended;
+    b->counts.filtered += count;
+    b->counts.filtered_px += px;
+    b->open_count = (uint16_t)(b->open_count - count);
+}
+#endif
+
+/* Closes the blobs that have ended. */
 PEL_I_APART static void close_ended(pel_blobs *b)
 {
-    slot *const slots = b->slots;
-    const unsigned y = b->next_row;
-
-    for (const uint16_t *above = b->ids[b->above];; above++) {
-        const unsigned id = *above;
-        if (id >= LOST) {
-            if (id == NO_BLOB) {
-                return;
-            }
-        } else if (slots[id].newest != y && slots[id].parent == id) {
-            slots[id].newest = (uint16_t)y;
-            close_blob(b, id);
+    while (b->ended_slot != END) {
+        const unsigned id = b->ended_slot;
+        const slot *const t = pel_i_slot(b->slots, id);
+        if (t->root & BROKEN) {
+            b->counts.lost_px += t->area;
+        } else {
+            pel_blob blob;
+            describe(b, id, &blob);
+            pel_i_blobs_report(b, &blob);
         }
+        b->ended_slot = t->newest;
+        b->open_count--;
+        free_slot(b, id);
     }
 }
 
@@ -229,52 +255,84 @@ PEL_I_APART static void close_ended(pel_blobs *b)
 /*
  * The walk over the runs of the row from one on, with those of the row above beside it. The last
  * run of either row is behind its end and touches nothing.
+ *
+ * Most runs touch none or one above, and that belongs to a root: this is all that they take here.
+ * `lossy` tells whether runs above may have been lost.
  */
-PEL_I_APART static void walk(pel_blobs *b, size_t first, const pel_run *above,
-                             const uint8_t *labels)
+INLINE void walk(pel_blobs *b, size_t first, const pel_run *above, const uint8_t *labels,
+                 const int lossy)
 {
     const pel_run *next = b->runs[1 - b->above] + first;
     uint16_t *place = b->ids[1 - b->above] + first;
     const uint16_t *id_above = b->ids[b->above];
     slot *const slots = b->slots;
-    const unsigned y = b->next_row;
-    const int reach = b->reach, lossy = b->losses & LOST_ABOVE;
+    const int reach = b->reach;
 
     for (;; next++, place++) {
         const unsigned x0 = next->x0, x1 = next->x1;
         const int from = (int)x0 - reach, to = (int)x1 + reach; /* from may be -1 */
-        const uint16_t *id = id_above;
-        slot *mine = NULL;
-        uint64_t touched = 0;
-        unsigned label;
-        int lost;
+        uint32_t of_label;
+        slot *mine;
+        found f = {NULL, 0, 0};
+        int more;
+        for (; (int)above->x1 <= from; above++, id_above++) {
+            pass(b, slots, id_above, lossy);
+        }
         if (x1 == BEYOND) {
             return;
         }
-        label = labels[x0];
-        for (; (int)above->x1 <= from; above++) {
-            id = ++id_above;
-        }
-        for (const pel_run *other = above; (int)other->x0 < to; other++, id++) {
-            slot *const t = &slots[*id];
-            if (*id < LOST && t->label == label) {
-                mine = mine || t->parent != *id ? join_blob(b, mine, *id) : t;
-                touched += touch_extras(*next, *other);
+        of_label = pel_i_of_label(labels[x0]);
+        more = (int)above->x0 < to;
+        if (more && (!lossy || *id_above < LOST) &&
+            pel_i_slot(slots, *id_above)->root == (of_label | *id_above)) {
+            f.mine = pel_i_slot(slots, *id_above);
+            f.touched = touch_extras(*next, *above);
+            more = above->x1 <= x1;
+            if (more) { /* what comes in this row has another label, or begins behind it */
+                above++;
+                id_above++;
+                more = (int)above->x0 < to;
             }
         }
-        lost = lossy && touches_lost(above, id_above, to, label);
-        if (!mine) {
-            mine = open_or_lose(b, next, label, lost, place);
-            if (!mine) {
-                continue;
-            }
-        } else if (lost) {
-            mine->broken = 1;
+        if (more) {
+            found g = f;
+            join_all(b, next, of_label, above, id_above, &g);
+            f = g;
         }
-        *place = mine->parent;
-        add_run(b, mine, *next, y, touched);
+        mine = f.mine;
+        if (mine) {
+            if (lossy && f.lost) {
+                mine->root |= BROKEN;
+            }
+            add_run(b, mine, x0, x1, f.touched);
+        } else if ((lossy && f.lost) || b->free_slot == END) {
+            lose_run(b, next, of_label, lossy && f.lost, place);
+            continue;
+        } else {
+            mine = open_blob(b, slots, next, of_label);
+        }
+        mine->newest = pel_i_run_name(place);
+        *place = pel_i_parent(mine);
     }
 }
+
+/* Any row. */
+PEL_I_APART static void walk_lossy(pel_blobs *b, size_t first, const pel_run *above,
+                                   const uint8_t *labels)
+{
+    walk(b, first, above, labels, 1);
+}
+
+#if defined(__OPTIMIZE_SIZE__)
+#define walk_whole walk_lossy
+#else
+/* A row below one of which no run was lost. */
+PEL_I_APART static void walk_whole(pel_blobs *b, size_t first, const pel_run *above,
+                                   const uint8_t *labels)
+{
+    walk(b, first, above, labels, 0);
+}
+#endif
 
 /* Runs learn their roots; then nothing refers to united slots any more. */
 PEL_I_APART static void settle(pel_blobs *b, size_t count)
@@ -288,7 +346,7 @@ PEL_I_APART static void settle(pel_blobs *b, size_t count)
     }
     while (b->united_slot != END) {
         const uint16_t id = b->united_slot;
-        b->united_slot = (uint16_t)b->slots[id].area;
+        b->united_slot = (uint16_t)pel_i_slot(b->slots, id)->area;
         free_slot(b, id);
     }
 }
@@ -304,8 +362,12 @@ PEL_I_APART static void join_row(pel_blobs *b, size_t count, const uint8_t *labe
     runs[count] = beyond;
     ids[count] = NO_BLOB;
     b->losses = b->losses & LOST_HERE ? LOST_ABOVE : 0;
-    walk(b, 0, b->runs[b->above], labels);
-    close_ended(b);
+    b->ended_slot = END;
+    (b->losses ? walk_lossy : walk_whole)(b, 0, b->runs[b->above], labels);
+    if (b->ended_slot != END) {
+        close_small(b);
+        close_ended(b);
+    }
     if (b->losses & LATE) {
         settle(b, count);
         b->losses = (uint8_t)(b->losses | SECOND);
@@ -313,7 +375,7 @@ PEL_I_APART static void join_row(pel_blobs *b, size_t count, const uint8_t *labe
             if (ids[i] == NO_BLOB) {
                 const pel_run next = runs[i + 1];
                 runs[i + 1] = beyond;
-                walk(b, i, &runs[i + 1], labels);
+                walk_lossy(b, i, &runs[i + 1], labels);
                 runs[i + 1] = next;
             }
         }

@@ -7,10 +7,11 @@
 
 /* Nothing is measured beyond area, box and sums. */
 
-static inline void clear_extras(const pel_blobs *b, unsigned id)
+static inline void set_extras(const pel_blobs *b, unsigned id, pel_run run)
 {
     (void)b;
     (void)id;
+    (void)run;
 }
 
 static inline void unite_extras(const pel_blobs *b, unsigned into, unsigned from)
@@ -20,14 +21,14 @@ static inline void unite_extras(const pel_blobs *b, unsigned into, unsigned from
     (void)from;
 }
 
-static inline uint64_t touch_extras(pel_run run, pel_run above)
+static inline uint32_t touch_extras(pel_run run, pel_run above)
 {
     (void)run;
     (void)above;
     return 0;
 }
 
-static inline void add_extras(const pel_blobs *b, unsigned id, pel_run run, uint64_t touched)
+static inline void add_extras(const pel_blobs *b, unsigned id, pel_run run, uint32_t touched)
 {
     (void)b;
     (void)id;

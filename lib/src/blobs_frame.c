@@ -66,10 +66,11 @@ static void lay_out(pel_blobs *b)
 
 static void free_all_slots(pel_blobs *b)
 {
+    const uint16_t used = b->config.open_max < OPEN_USED ? b->config.open_max : (uint16_t)OPEN_USED;
     uint32_t next = END;
 
-    for (uint32_t id = b->config.open_max; id-- > 0; next = id) {
-        b->slots[id].area = next;
+    for (uint32_t i = used; i-- > 0; next = i * SLOT_STEPS) {
+        b->slots[i].area = next;
     }
     b->free_slot = 0;
     b->united_slot = END;

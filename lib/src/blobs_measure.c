@@ -4,17 +4,10 @@
 #include "blob_slots.h"
 #include "row/row.h"
 
-/* The sums of a slot. */
-static inline uint64_t *extras_of(const pel_blobs *b, size_t id)
+/* The sums of a slot; id / SLOT_STEPS exactly, as id < 2^16. */
+static inline uint64_t *extras_of(const pel_blobs *b, uint32_t id)
 {
-    return b->extras + id * b->extra_count;
-}
-
-static inline void clear_extras(const pel_blobs *b, unsigned id)
-{
-    for (unsigned i = 0; i < b->extra_count; i++) {
-        extras_of(b, id)[i] = 0;
-    }
+    return b->extras + (size_t)(id * 0xAAABu >> 17) * b->extra_count;
 }
 
 static inline void unite_extras(const pel_blobs *b, unsigned into, unsigned from)
@@ -24,30 +17,71 @@ static inline void unite_extras(const pel_blobs *b, unsigned into, unsigned from
     }
 }
 
-/* A run touches a run above: a pair more, and so many edges less, none at a corner. */
-static inline uint64_t touch_extras(pel_run run, pel_run above)
+/* A run touches a run above: a pair more, in the high half, and in the low half so many edges, none
+ * at a corner. A row has less than 2^16 of both. */
+static inline uint32_t touch_extras(pel_run run, pel_run above)
 {
     const uint16_t x0 = above.x0 > run.x0 ? above.x0 : run.x0;
     const uint16_t x1 = above.x1 < run.x1 ? above.x1 : run.x1;
-    return ((uint64_t)1 << 32) + (uint16_t)(x1 - x0);
+    return ((uint32_t)1 << 16) + x1 - x0;
 }
 
-/* Adds what is measured beyond area, box and sums. With s = x0 + x1 - 1, twice the middle of a run
+/* What a run alone has, beyond area, box and sums. With s = x0 + x1 - 1, twice the middle of a run
  * of n, its sum of x*x is n (3 s^2 + n^2 - 1) / 12; the bracket is below 2^30. */
-static inline void add_extras(const pel_blobs *b, unsigned id, pel_run run, uint64_t touched)
+static inline uint64_t sum_of_12xx(pel_run run)
 {
     const uint32_t n = (uint32_t)run.x1 - run.x0, s = (uint32_t)run.x0 + run.x1 - 1;
-    const uint32_t y = b->next_row;
+    return (uint64_t)n * (3 * s * s + n * n - 1);
+}
+
+static inline uint64_t sum_of_xy(pel_run run, uint32_t y)
+{
+    const uint32_t n = (uint32_t)run.x1 - run.x0, s = (uint32_t)run.x0 + run.x1 - 1;
+    return (uint64_t)(n * s / 2) * y;
+}
+
+static inline uint64_t sum_of_yy(pel_run run, uint32_t y)
+{
+    return (uint64_t)((uint32_t)run.x1 - run.x0) * (y * y);
+}
+
+static inline uint64_t outline_of(uint32_t touched)
+{
+    return ((uint64_t)1 << 32) + 1 - ((uint64_t)(touched >> 16) << 32) - (touched & 0xFFFF);
+}
+
+/* The first run of a blob. */
+static inline void set_extras(const pel_blobs *b, unsigned id, pel_run run)
+{
     const unsigned measure = b->config.measure;
     uint64_t *extra = extras_of(b, id);
 
     if (measure & PEL_MEASURE_OUTLINE) {
-        *extra++ += ((uint64_t)1 << 32) + 1 - touched;
+        *extra++ = outline_of(0);
     }
     if (measure & PEL_MEASURE_MOMENTS) {
-        extra[0] += (uint64_t)n * (3 * s * s + n * n - 1);
-        extra[1] += (uint64_t)(n * s / 2) * y;
-        extra[2] += (uint64_t)n * (y * y);
+        *extra++ = sum_of_12xx(run);
+        *extra++ = sum_of_xy(run, b->next_row);
+        *extra++ = sum_of_yy(run, b->next_row);
+    }
+    if (measure & PEL_MEASURE_COLOR) {
+        extra[0] = 0;
+        extra[1] = 0;
+    }
+}
+
+static inline void add_extras(const pel_blobs *b, unsigned id, pel_run run, uint32_t touched)
+{
+    const unsigned measure = b->config.measure;
+    uint64_t *extra = extras_of(b, id);
+
+    if (measure & PEL_MEASURE_OUTLINE) {
+        *extra++ += outline_of(touched);
+    }
+    if (measure & PEL_MEASURE_MOMENTS) {
+        extra[0] += sum_of_12xx(run);
+        extra[1] += sum_of_xy(run, b->next_row);
+        extra[2] += sum_of_yy(run, b->next_row);
     }
 }
 

@@ -271,6 +271,7 @@ typedef struct pel_blobs {
     uint8_t reach;
     uint8_t state;
     uint8_t losses;
+    uint16_t ended_slot;
 } pel_blobs;
 
 /*
