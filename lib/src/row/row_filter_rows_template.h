@@ -3,14 +3,15 @@
  * vector is done from top to bottom, so that what a row gives to the results above it, in it and
  * below it is made of its pixels only once.
  *
- * Strips begin where results lie aligned to vectors, as far as the first row: stores that pass the
- * end of a cache line take several times as long. The first strip and the last one overlap others.
+ * Strips begin where those of the first row fill cache lines, or parts of them: stores that pass
+ * the end of a line take several times as long. The first strip and the last one overlap others.
  */
 #define ROWS(name, pixel)                                                                          \
     ISA void KERNEL(name##_rows)(const uint8_t *const rows[], uint16_t count, uint16_t height,     \
                                  pixel *out, ptrdiff_t stride)                                     \
     {                                                                                              \
-        const int skew = (int)((uintptr_t)out % LANES / sizeof(pixel)), last = count - LANES;      \
+        const int last = count - LANES;                                                            \
+        const int skew = (int)((uintptr_t)out / sizeof(pixel) % LANES);                            \
                                                                                                    \
         name##_strip(rows, 0, height, out, stride);                                                \
         for (int x = LANES - skew; x < last; x += LANES) {                                         \
