@@ -65,15 +65,16 @@ static pel_status check_classifier(const pel_classifier *classifier)
 static void classify_yuv(const pel_classifier *classifier, const uint8_t *y, const uint8_t *u,
                          const uint8_t *v, uint16_t count, uint8_t *labels)
 {
+    const uint8_t *const yuv[3] = {y, u, v};
+
     if (classifier->boxes) {
         const pel_classify_plan *const plan = classifier->plan;
         const pel_row_boxes boxes = pel_i_row_boxes(classifier);
-        const uint8_t *const yuv[3] = {y, u, v};
         pel_i_row_classify(plan ? plan->backend : PEL_ROW_BUILT_IN, plan ? plan->nibbles : NULL,
                            &boxes, yuv, count, labels);
     } else {
         const pel_row_lut lut = row_lut(&classifier->lut);
-        pel_row_classify_lut(&lut, y, u, v, count, labels);
+        pel_i_row_classify_lut(pel_i_row_backend(PEL_BACKEND_AUTO), &lut, yuv, count, labels);
     }
 }
 

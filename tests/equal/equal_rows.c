@@ -2,6 +2,7 @@
 #include "equal.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "row/row_color_select.h"
@@ -215,6 +216,39 @@ static size_t classify_planes(pel_backend backend, const equal_run *run)
     return run->width;
 }
 
+/* Tables of 1 to 4096 cells that end where their memory ends; labels in Y's place, by the seed. */
+static size_t classify_lut(pel_backend backend, const equal_run *run)
+{
+    const uint8_t *yuv[3];
+    uint32_t state = run->seed;
+    const unsigned y_bits = equal_random(&state) % 5, u_bits = equal_random(&state) % 5;
+    const unsigned v_bits = equal_random(&state) % 5, bits = y_bits + u_bits + v_bits;
+    uint8_t *const cells = malloc((size_t)1 << bits);
+
+    if (!cells) {
+        exit(1);
+    }
+    for (size_t i = 0; i < (size_t)1 << bits; i++) {
+        cells[i] = (uint8_t)equal_random(&state);
+    }
+    for (unsigned i = 0; i < 3; i++) {
+        yuv[i] = row_end(run, i, run->width);
+    }
+    if (run->seed & 1) {
+        memcpy(run->out, yuv[0], run->width);
+        yuv[0] = run->out;
+    }
+    const pel_row_lut lut = {cells,
+                             (uint8_t)(8 - y_bits),
+                             (uint8_t)(8 - u_bits),
+                             (uint8_t)(8 - v_bits),
+                             (uint8_t)(u_bits + v_bits),
+                             (uint8_t)v_bits};
+    pel_i_row_classify_lut(backend, &lut, yuv, run->width, run->out);
+    free(cells);
+    return run->width;
+}
+
 const equal_kernel equal_row_kernels[] = {{"RGB to YCbCr", rgb_to_ycbcr, 0},
                                           {"YCbCr to RGB", ycbcr_to_rgb, 0},
                                           {"RGB24 to planes", rgb24_to_ycbcr, 0},
@@ -232,6 +266,7 @@ const equal_kernel equal_row_kernels[] = {{"RGB to YCbCr", rgb_to_ycbcr, 0},
                                           {"gray to planes", gray_to_planes, 0},
                                           {"gray to RGB", gray_to_rgb, 0},
                                           {"classify planes", classify_planes, 0},
+                                          {"classify by table", classify_lut, 0},
                                           {NULL, NULL, 0}};
 
 /* ---- All colours --------------------------------------------------------------------------- */

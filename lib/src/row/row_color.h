@@ -119,6 +119,10 @@ enum {
 #if defined(PEL_ROW_X86)
 PEL_ROW_COLORS(ssse3);
 PEL_ROW_COLORS(avx2);
+
+/* A table of four cells or more. Says how many labels it did; labels may be y. */
+uint16_t pel_row_classify_lut_avx2(const pel_row_lut *lut, const uint8_t *y, const uint8_t *u,
+                                   const uint8_t *v, uint16_t count, uint8_t *labels);
 #else
 PEL_ROW_COLORS(neon);
 #endif

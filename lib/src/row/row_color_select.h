@@ -119,4 +119,24 @@ static inline void pel_i_row_classify(pel_backend backend, const uint8_t *nibble
     pel_row_classify(boxes, y + done, u + done, v + done, (uint16_t)(count - done), labels + done);
 }
 
+/* labels may be y. Tables of fewer than four cells are for plain C, as are those of processors that
+ * do not gather. */
+static inline void pel_i_row_classify_lut(pel_backend backend, const pel_row_lut *lut,
+                                          const uint8_t *const yuv[3], uint16_t count,
+                                          uint8_t *labels)
+{
+    const uint8_t *const y = yuv[0], *const u = yuv[1], *const v = yuv[2];
+    uint16_t done = 0;
+
+#if defined(PEL_ROW_X86)
+    if (backend >= PEL_BACKEND_AVX2 && lut->y_shift + 8 - lut->y_drop >= 2) {
+        done = pel_row_classify_lut_avx2(lut, y, u, v, count, labels);
+    }
+#else
+    (void)backend;
+#endif
+    pel_row_classify_lut(lut, y + done, u + done, v + done, (uint16_t)(count - done),
+                         labels + done);
+}
+
 #endif
