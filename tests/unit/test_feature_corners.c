@@ -118,6 +118,8 @@ static void test_corners_refuse(void)
     expect_refused(PEL_ERR_ARG);
     config.suppress = (pel_corners_suppress)3;
     expect_refused(PEL_ERR_ARG);
+    config.backend = PEL_BACKEND_COUNT;
+    expect_refused(PEL_ERR_ARG);
     config.k_q15 = 8192;
     expect_refused(PEL_ERR_ARG);
     config.threshold = -1;

@@ -141,6 +141,9 @@ static void test_canny_refuses(void)
     uint8_t row[WIDTH];
 
     TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_canny_begin(&canny, &c));
+    c = canny_config(100, 200);
+    c.backend = PEL_BACKEND_COUNT;
+    TEST_ASSERT_EQUAL_INT(PEL_ERR_ARG, pel_canny_begin(&canny, &c));
     c = canny_config(1, 2);
     if (offsetof(struct element, value) > 1) {
         c.work = (uint8_t *)canny_work + 1;
