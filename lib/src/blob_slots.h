@@ -42,8 +42,8 @@ typedef struct pel_blob_slot slot;
 #define END 0xFF00u
 
 /* Bits of pel_blobs.losses: a run of this row found no slot so far; runs of this row were lost; of
- * the row above; this is the second walk over the row. */
-enum { LATE = 1, LOST_HERE = 2, LOST_ABOVE = 4, SECOND = 8 };
+ * the row above; this is the second walk over the row; for want of a slot a run was lost. */
+enum { LATE = 1, LOST_HERE = 2, LOST_ABOVE = 4, SECOND = 8, NO_SLOT = 16 };
 
 /* The run behind the last of a row, BEYOND - 1 .. BEYOND: every search stops there. One more still
  * fits an int of 16 bits, and Thumb-2 compares with it at once. */

@@ -108,6 +108,7 @@ PEL_I_APART static void lose_run(pel_blobs *b, const pel_run *run, uint32_t of_l
     }
     if (!lost) {
         b->counts.lost_opens++;
+        b->losses = (uint8_t)(b->losses | NO_SLOT);
     }
     b->losses = (uint8_t)(b->losses | LOST_HERE);
     b->counts.lost_px += (uint32_t)(run->x1 - run->x0);
@@ -122,22 +123,23 @@ static inline uint32_t sum_of_x(uint32_t x0, uint32_t x1)
     return (x1 - x0) * (x0 + x1 - 1) / 2;
 }
 
-/* A run that touches none opens a blob in the first free slot; there is one. */
-static inline slot *open_blob(pel_blobs *b, slot *slots, const pel_run *run, uint32_t of_label)
+/* A run x0 .. x1 that touches none opens a blob in the first free slot; there is one. */
+static inline slot *open_blob(pel_blobs *b, slot *slots, const pel_run *run, unsigned x0,
+                              unsigned x1, uint32_t of_label)
 {
     const uint16_t id = b->free_slot;
     slot *const t = pel_i_slot(slots, id);
-    const uint32_t n = (uint32_t)run->x1 - run->x0;
+    const uint32_t n = (uint32_t)x1 - x0;
     const uint16_t y = b->next_row;
 
     b->free_slot = (uint16_t)t->area;
     t->area = n;
-    t->sum_x = sum_of_x(run->x0, run->x1);
+    t->sum_x = sum_of_x(x0, x1);
     t->sum_y = n * y;
     t->box = *run;
     t->y0 = y;
     t->root = of_label | id;
-    set_extras(b, id, *run);
+    set_extras(b, id, (pel_run){(uint16_t)x0, (uint16_t)x1});
     b->open_count++;
     return t;
 }
@@ -192,11 +194,12 @@ PEL_I_APART static void describe(const pel_blobs *b, unsigned id, pel_blob *blob
  * blob, that has ended and goes to the list of those. */
 static inline void pass(pel_blobs *b, slot *slots, const uint16_t *id_above, const int lossy)
 {
-    slot *const t = pel_i_slot(slots, *id_above);
+    const uint16_t id = *id_above;
+    slot *const t = pel_i_slot(slots, id);
 
-    if ((!lossy || *id_above < LOST) && t->newest == pel_i_run_name(id_above)) {
+    if ((!lossy || id < LOST) && t->newest == pel_i_run_name(id_above)) {
         t->newest = b->ended_slot;
-        b->ended_slot = *id_above;
+        b->ended_slot = id;
     }
 }
 
@@ -309,7 +312,7 @@ INLINE void walk(pel_blobs *b, size_t first, const pel_run *above, const uint8_t
             lose_run(b, next, of_label, lossy && f.lost, place);
             continue;
         } else {
-            mine = open_blob(b, slots, next, of_label);
+            mine = open_blob(b, slots, next, x0, x1, of_label);
         }
         mine->newest = pel_i_run_name(place);
         *place = pel_i_parent(mine);
@@ -362,8 +365,11 @@ PEL_I_APART static void join_row(pel_blobs *b, size_t count, const uint8_t *labe
     runs[count] = beyond;
     ids[count] = NO_BLOB;
     b->losses = b->losses & LOST_HERE ? LOST_ABOVE : 0;
-    b->ended_slot = END;
-    (b->losses ? walk_lossy : walk_whole)(b, 0, b->runs[b->above], labels);
+    if (b->losses != 0) {
+        walk_lossy(b, 0, b->runs[b->above], labels);
+    } else {
+        walk_whole(b, 0, b->runs[b->above], labels);
+    }
     if (b->ended_slot != END) {
         close_small(b);
         close_ended(b);

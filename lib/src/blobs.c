@@ -93,8 +93,6 @@ void pel_i_blobs_report(pel_blobs *b, const pel_blob *blob)
 pel_status pel_i_blobs_join(pel_blobs *b, uint16_t count, const uint8_t *labels,
                             const pel_crow *pixels)
 {
-    const uint32_t lost_before = b->counts.lost_opens;
-
     if (b->config.measurer) {
         const pel_status status = b->config.measurer(b, count, labels, pixels);
         if (status != PEL_OK) {
@@ -104,7 +102,7 @@ pel_status pel_i_blobs_join(pel_blobs *b, uint16_t count, const uint8_t *labels,
         join_row(b, count, labels);
     }
     b->next_row++;
-    return b->counts.lost_opens == lost_before ? PEL_OK : PEL_TRUNCATED;
+    return b->losses & NO_SLOT ? PEL_TRUNCATED : PEL_OK;
 }
 
 pel_status pel_blobs_row(pel_blobs *b, uint16_t y, const uint8_t *labels, const pel_crow *pixels)

@@ -99,6 +99,7 @@ pel_status pel_blobs_begin(pel_blobs *b, const pel_blobs_config *config)
     b->open_count = 0;
     b->above = 0;
     b->losses = 0;
+    b->ended_slot = END;
     b->state = STATE_ROWS;
     return PEL_OK;
 }
@@ -139,7 +140,8 @@ static inline int is_usual(const pel_blobs *b, uint16_t y, const pel_classifier 
            info->layout == PEL_LAYOUT_PAIRS && info->pair_bytes == 4 && pixels->width == width &&
            width % 2 == 0 && pixels->range == classifier->range &&
            (unsigned)pixels->range <= PEL_RANGE_LIMITED &&
-           !pel_i_overlap_now(pixels->plane[0], 2 * (size_t)width, labels, width);
+           (uintptr_t)labels - (uintptr_t)pixels->plane[0] >= 2 * (size_t)width &&
+           (uintptr_t)pixels->plane[0] - (uintptr_t)labels >= width;
 #endif
 }
 
