@@ -51,6 +51,9 @@ enum { BEYOND = 0x7F00 };
 
 enum { STATE_IDLE, STATE_ROWS };
 
+/* Which of pel_blobs.runs and ids are of the row above, and of this row. */
+enum { ABOVE, HERE };
+
 /*
  * Slots are named by where they lie, in steps of 8 bytes: from a name an address is one scaled
  * addition. So there are at most OPEN_USED of them. More are of no use: a row has not so many runs.
@@ -95,7 +98,7 @@ void pel_i_blobs_report(pel_blobs *b, const pel_blob *blob);
 /* Where the runs of the next row go. */
 static inline uint16_t *pel_i_blobs_edges(const pel_blobs *b)
 {
-    return &b->runs[1 - b->above]->x0;
+    return &b->runs[HERE]->x0;
 }
 
 /* Adds the row whose runs lie there; of `labels` only the first of each run is read. */

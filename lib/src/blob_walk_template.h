@@ -265,9 +265,9 @@ PEL_I_APART static void close_ended(pel_blobs *b)
 INLINE void walk(pel_blobs *b, size_t first, const pel_run *above, const uint8_t *labels,
                  const int lossy)
 {
-    const pel_run *next = b->runs[1 - b->above] + first;
-    uint16_t *place = b->ids[1 - b->above] + first;
-    const uint16_t *id_above = b->ids[b->above];
+    const pel_run *next = b->runs[HERE] + first;
+    uint16_t *place = b->ids[HERE] + first;
+    const uint16_t *id_above = b->ids[ABOVE];
     slot *const slots = b->slots;
     const int reach = b->reach;
 
@@ -340,7 +340,7 @@ PEL_I_APART static void walk_whole(pel_blobs *b, size_t first, const pel_run *ab
 /* Runs learn their roots; then nothing refers to united slots any more. */
 PEL_I_APART static void settle(pel_blobs *b, size_t count)
 {
-    uint16_t *const ids = b->ids[1 - b->above];
+    uint16_t *const ids = b->ids[HERE];
 
     for (size_t i = 0; i < count; i++) {
         if (ids[i] < LOST) {
@@ -359,16 +359,16 @@ PEL_I_APART static void settle(pel_blobs *b, size_t count)
 PEL_I_APART static void join_row(pel_blobs *b, size_t count, const uint8_t *labels)
 {
     const pel_run beyond = {BEYOND - 1, BEYOND};
-    pel_run *const runs = b->runs[1 - b->above];
-    uint16_t *const ids = b->ids[1 - b->above];
+    pel_run *const runs = b->runs[HERE];
+    uint16_t *const ids = b->ids[HERE];
 
     runs[count] = beyond;
     ids[count] = NO_BLOB;
     b->losses = b->losses & LOST_HERE ? LOST_ABOVE : 0;
     if (b->losses != 0) {
-        walk_lossy(b, 0, b->runs[b->above], labels);
+        walk_lossy(b, 0, b->runs[ABOVE], labels);
     } else {
-        walk_whole(b, 0, b->runs[b->above], labels);
+        walk_whole(b, 0, b->runs[ABOVE], labels);
     }
     if (b->ended_slot != END) {
         close_small(b);
@@ -389,5 +389,8 @@ PEL_I_APART static void join_row(pel_blobs *b, size_t count, const uint8_t *labe
     if (b->open_count > b->counts.open_peak) {
         b->counts.open_peak = b->open_count;
     }
-    b->above = (uint8_t)(1 - b->above);
+    b->runs[HERE] = b->runs[ABOVE];
+    b->ids[HERE] = b->ids[ABOVE];
+    b->runs[ABOVE] = runs;
+    b->ids[ABOVE] = ids;
 }

@@ -58,10 +58,10 @@ static void lay_out(pel_blobs *b)
     b->extra_count = (uint8_t)((PEL_BLOBS_SLOT_BYTES(c->measure) - sizeof(slot)) / 8);
     b->extras = c->work;
     b->slots = (slot *)(void *)(b->extras + open * b->extra_count);
-    b->runs[0] = (pel_run *)(void *)(b->slots + open);
-    b->runs[1] = b->runs[0] + width;
-    b->ids[0] = (uint16_t *)(void *)(b->runs[1] + width);
-    b->ids[1] = b->ids[0] + width;
+    b->runs[ABOVE] = (pel_run *)(void *)(b->slots + open);
+    b->runs[HERE] = b->runs[ABOVE] + width;
+    b->ids[ABOVE] = (uint16_t *)(void *)(b->runs[HERE] + width);
+    b->ids[HERE] = b->ids[ABOVE] + width;
 }
 
 static void free_all_slots(pel_blobs *b)
@@ -91,13 +91,12 @@ pel_status pel_blobs_begin(pel_blobs *b, const pel_blobs_config *config)
     b->reach = config->connectivity == 4 ? 0 : 1;
     lay_out(b);
     free_all_slots(b);
-    b->runs[0][0] = beyond;
-    b->ids[0][0] = NO_BLOB;
+    b->runs[ABOVE][0] = beyond;
+    b->ids[ABOVE][0] = NO_BLOB;
     b->labels = NULL;
     b->results_count = 0;
     b->next_row = 0;
     b->open_count = 0;
-    b->above = 0;
     b->losses = 0;
     b->ended_slot = END;
     b->state = STATE_ROWS;

@@ -139,16 +139,15 @@ static void add_color(const pel_blobs *b, uint64_t *sums, pel_run run, const pel
     }
 }
 
-/* The pixels of the row, when all of its runs are in blobs. The sums of colour are the last two. */
+/* The pixels of the row, when all of its runs are in blobs and it has become the one above. The
+ * sums of colour are the last two. */
 PEL_I_APART static void add_colors(const pel_blobs *b, size_t count, const pel_crow *pixels)
 {
-    const size_t newest = b->above; /* the rows have changed places */
-
     for (size_t i = 0; i < count; i++) {
-        const unsigned id = b->ids[newest][i];
+        const unsigned id = b->ids[ABOVE][i];
         if (id < LOST) {
             add_color(b, extras_of(b, find_root(b->slots, id)) + b->extra_count - 2,
-                      b->runs[newest][i], pixels);
+                      b->runs[ABOVE][i], pixels);
         }
     }
 }

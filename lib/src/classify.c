@@ -81,7 +81,7 @@ static void classify_yuv(const pel_classifier *classifier, const uint8_t *y, con
 /* Pixels read at a time: U and V lie on the stack, Y where the labels will. What converts many at
  * once wants many. */
 #if defined(PEL_ROW_COLOR)
-enum { CHUNK = 96 };
+enum { CHUNK = 64 };
 #else
 enum { CHUNK = 8 };
 #endif

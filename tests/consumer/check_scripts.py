@@ -97,9 +97,10 @@ def check_readme_table(out):
     bench = load_instructions()
     text = (ROOT / "README.md").read_text()
     lines, _ = bench.read_markdown(ROOT / "README.md")
-    rows = [{"input": name, "blobs": int(cells[0].split()[-2]), "basic": float(cells[1]),
-             "all": float(cells[2]), "cmvision": bench.INPUTS[name].cmvision,
-             "compiler": "gcc-12.9.9"} for name, cells in lines.items()]
+    rows = [{"input": name, "blobs": int(cells[0].split()[-2]),
+             **{level: float(cell) for level, cell in zip(bench.LEVELS, cells[1:-1])},
+             "cmvision": bench.INPUTS[name].cmvision, "compiler": "gcc-12.9.9"}
+            for name, cells in lines.items()]
 
     def judge(rows, text):
         path = out / "README.md"

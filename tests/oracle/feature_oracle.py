@@ -34,8 +34,8 @@ RESPONSE_DISTANCE_PX = 3.0    # the top of the response, with a 3x3 window, lies
 
 
 class CornersConfig(ctypes.Structure):
-    _fields_ = [("method", ctypes.c_int), ("suppress", ctypes.c_int), ("width", ctypes.c_uint16),
-                ("height", ctypes.c_uint16), ("k_q15", ctypes.c_uint16),
+    _fields_ = [("method", ctypes.c_int), ("suppress", ctypes.c_int), ("backend", ctypes.c_int),
+                ("width", ctypes.c_uint16), ("height", ctypes.c_uint16), ("k_q15", ctypes.c_uint16),
                 ("threshold", ctypes.c_int32), ("work", ctypes.c_void_p),
                 ("work_bytes", ctypes.c_size_t), ("results", ctypes.c_void_p),
                 ("results_max", ctypes.c_uint32), ("on_corner", ctypes.c_void_p),
@@ -49,7 +49,7 @@ class Corners(ctypes.Structure):
 
 class CannyConfig(ctypes.Structure):
     _fields_ = [("width", ctypes.c_uint16), ("height", ctypes.c_uint16), ("low", ctypes.c_uint16),
-                ("high", ctypes.c_uint16), ("work", ctypes.c_void_p),
+                ("high", ctypes.c_uint16), ("backend", ctypes.c_int), ("work", ctypes.c_void_p),
                 ("work_bytes", ctypes.c_size_t)]
 
 

@@ -29,10 +29,12 @@ TARGETS = [firmware.HOST] + [core for core in firmware.CORES if core.name in
 VECTOR_FRAME_LIMIT = 1536
 # Root and quotient of whole numbers below 2^22 in single precision are exact after truncation: both
 # instructions are correctly rounded, see row_filter_template.h; equal_filter.c tries all roots.
-# Reciprocals only make guesses that whole numbers put right, see row_filter_rows_template.h.
-EXACT_FLOATS = r"v?(cvtdq2ps|cvttps2dq|sqrtps|divps|rcp(14)?ps|rsqrt(14)?ps|addps)"
-FLOAT_FILES = re.compile(r"row_filter_(ssse3|avx2|avx512)")
-VECTOR_FILES = re.compile(r"row_(filter_|point_)?(ssse3|avx2|avx512)")
+# Reciprocals only make guesses that whole numbers put right, see row_filter_rows_template.h. For
+# squares and roots in double precision see row_feature_tensor_template.h and equal_feature.c.
+EXACT_FLOATS = (r"v?(cvtdq2ps|cvttps2dq|sqrtps|divps|rcp(14)?ps|rsqrt(14)?ps|addps|"
+                r"cvtdq2pd|cvttpd2dqy?|addpd|subpd|mulpd|sqrtpd)")
+FLOAT_FILES = re.compile(r"row_(filter|point|feature)_(ssse3|avx2|avx512)")
+VECTOR_FILES = re.compile(r"row_(filter_|point_|feature_|color_)?(ssse3|avx2|avx512)")
 # What the compiler's start-up code found out about the processor, and how shared objects get there.
 HOST_SYMBOLS = ("__cpu_model", "_GLOBAL_OFFSET_TABLE_")
 

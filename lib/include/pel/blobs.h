@@ -258,7 +258,7 @@ typedef struct pel_blobs {
     pel_blobs_counts counts;
     struct pel_blob_slot *slots;
     uint64_t *extras;      /* what is measured beyond the basics, extra_count for each slot */
-    pel_run *runs[2];      /* of the row above and of this row, changing places */
+    pel_run *runs[2];      /* of the row above and of this row, which change places */
     uint16_t *ids[2];      /* the blob of each run */
     const uint8_t *labels; /* of the row before: they lie where the finder does not write */
     uint32_t results_count;
@@ -267,7 +267,6 @@ typedef struct pel_blobs {
     uint16_t united_slot;
     uint16_t open_count;
     uint8_t extra_count;
-    uint8_t above;
     uint8_t reach;
     uint8_t state;
     uint8_t losses;
