@@ -36,11 +36,6 @@
         name_, summary_, BENCH_GRAY, 1, benchruns_start_##work_, benchruns_##work_, NULL, NULL,    \
             NULL, NULL, NULL, choice_, fits_                                                       \
     }
-#define CHOSEN(name_, summary_, work_, choice_, fits_)                                             \
-    {                                                                                              \
-        name_, summary_, BENCH_GRAY, 0, benchruns_start_##work_, benchruns_##work_, NULL, NULL,    \
-            NULL, NULL, NULL, choice_, fits_                                                       \
-    }
 #define FILTER(name_, summary_, form_, op_, fits_)                                                 \
     {                                                                                              \
         name_, summary_, BENCH_##form_, 1, benchruns_start_filter, benchruns_filter, NULL,         \

@@ -185,7 +185,7 @@ static int check_names(const char *what, const char *list, const char *known(uns
 
 static int print_list(void)
 {
-    puts("Operators; * = has backends, o = OpenCV's job is compared and timed");
+    puts("Operators; * = has backends (others: auto), o = OpenCV's job is compared and timed");
     for (unsigned i = 0; i < bench_op_count; i++) {
         const bench_op *op = &bench_ops[i];
         printf("  %c%c %-17s %s\n", op->has_backend ? '*' : ' ', op->fits ? 'o' : ' ', op->name,
@@ -330,6 +330,12 @@ static int parse(int argc, char **argv, struct job *job)
 
 /* ---- Printing ------------------------------------------------------------------------------ */
 
+/* What can only be run in one way takes the best that there is. */
+static const char *name_of_backend(const bench_figure *f)
+{
+    return pel_backend_name(f->op->has_backend ? f->backend : PEL_BACKEND_AUTO);
+}
+
 static const char csv_header[] =
     "operator,backend,input,ns_per_px,ratio_to_memcpy,opencv_ns_per_px,speedup_over_opencv,"
     "ns_per_px_q1,ns_per_px_q3,memcpy_ns_per_px,memcpy_q1,memcpy_q3,opencv_q1,opencv_q3,runs,"
@@ -337,7 +343,7 @@ static const char csv_header[] =
 
 static void print_csv(const struct job *job, const bench_figure *f)
 {
-    printf("%s,%s,", f->op->name, pel_backend_name(f->backend));
+    printf("%s,%s,", f->op->name, name_of_backend(f));
     report_csv_text(stdout, f->picture->name);
     printf(",%.4f,%.3f,", f->own.median, f->own.median / f->copy.median);
     if (f->has_opencv) {
@@ -362,8 +368,8 @@ static void print_row(const bench_figure *f)
 {
     char quartiles[40];
     snprintf(quartiles, sizeof quartiles, "%.3f-%.3f", f->own.low, f->own.high);
-    printf("%-17s %-7s %8.3f %16s %9.2f", f->op->name, pel_backend_name(f->backend), f->own.median,
-           quartiles, f->own.median / f->copy.median);
+    printf("%-17s %-7s %8.3f %16s %9.2f", f->op->name, name_of_backend(f), f->own.median, quartiles,
+           f->own.median / f->copy.median);
     if (f->has_opencv) {
         snprintf(quartiles, sizeof quartiles, "%.3f-%.3f", f->opencv.low, f->opencv.high);
         printf(" %8.3f %16s %8.2f", f->opencv.median, quartiles, f->opencv.median / f->own.median);

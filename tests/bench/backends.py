@@ -29,7 +29,7 @@ def measure(pel, runs, size, *choice):
     plain = {row["operator"]: float(row["ns_per_px"]) for row in rows
              if row["backend"] == "scalar"}
     return {(row["operator"], row["backend"]): float(row["ns_per_px"]) / plain[row["operator"]]
-            for row in rows if row["backend"] != "scalar"}
+            for row in rows if row["backend"] not in ("scalar", "auto")}
 
 
 def parts_of(pel, runs, size):

@@ -63,13 +63,13 @@ def test_every_operator_backend_and_input():
     true("scalar" in backends)
     wanted = [(operator, backend, name) for name in INPUTS
               for operator, marks in listed("Operators").items()
-              for backend in (backends if marks[0] == "*" else ["scalar"])]
+              for backend in (backends if marks[0] == "*" else ["auto"])]
     rows = table(*ALONE)
     equal([(row["operator"], row["backend"], row["input"]) for row in rows], wanted)
     for row in rows:
         check_figures(row)
         equal((row["width"], row["height"], row["runs"]), ("32", "24", "2"))
-        equal(row["compared"], "" if row["backend"] == "scalar" else "scalar")
+        equal(row["compared"], "" if row["backend"] in ("scalar", "auto") else "scalar")
 
 
 def test_the_operators_are_those_of_the_library():
@@ -135,8 +135,9 @@ def compared(text):
 
 def test_the_table():
     text = ok("bench", *ALONE, "--input", "synth").text
-    for operator in listed("Operators"):
-        true(re.search("^%s +scalar " % re.escape(operator), text, re.MULTILINE), operator)
+    for operator, marks in listed("Operators").items():
+        backend = "scalar" if marks[0] == "*" else "auto"
+        true(re.search("^%s +%s " % (re.escape(operator), backend), text, re.MULTILINE), operator)
     others = len(listed("Backends")) - 1
     starred = sum(marks[0] == "*" for marks in listed("Operators").values())
     equal(compared(text), (others * starred, 0))

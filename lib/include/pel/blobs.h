@@ -251,7 +251,7 @@ typedef struct pel_blobs_counts {
     uint16_t open_peak;  /* the most blobs that were open at once: what open_max needs to be */
 } pel_blobs_counts;
 
-/* The finder. The caller places it (140 bytes on 32-bit machines), zeroes it unless pel_blobs_begin
+/* The finder. The caller places it (136 bytes on 32-bit machines), zeroes it unless pel_blobs_begin
  * is the first to see it, and reads `counts`; the rest is private. */
 typedef struct pel_blobs {
     pel_blobs_config config;

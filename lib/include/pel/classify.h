@@ -108,7 +108,7 @@ typedef struct pel_classifier {
 /*
  * Classifies a row: labels[x] for 0 <= x < pel_color_width(row).
  * Cost per pixel: boxes on YCbCr, three look-ups at most; what goes through the reader is read in
- * pieces first, of 8 pixels, or of 96 where a processor converts many at once.
+ * pieces first, of 8 pixels, or of 64 where a processor converts many at once.
  *
  * PEL_ERR_ARG: null pointer, unknown format or range, no classes, table bits over 8, labels that
  * overlap the row. PEL_ERR_FORMAT: impossible width, a colour range that is not the classifier's,
