@@ -106,7 +106,7 @@ struct pel_filter_config;
  * it is also called with a count of 0, and then rows and out are NULL.
  *
  * An operator is asked for by its function, so that a program holds those that it names and no
- * others. One of your own is as good as these:
+ * others (on x86 pel_filter_frame holds seven itself). One of your own is as good as these:
  *
  *     static unsigned brighter_above(const uint8_t *const rows[], uint16_t count,
  *                                    const pel_filter_config *config, uint8_t *out)
