@@ -151,6 +151,8 @@ run_tests() {
 
 summary=''
 label=''
+ratios=$build/gcc/tests/bench/ratios.txt
+rm -f "$ratios"
 if [ "$quick" ]; then
     label='-L quick'
 fi
@@ -178,4 +180,7 @@ elif [ -z "$quick" ]; then
     fi
 fi
 
+if [ -z "$quick" ] && [ -f "$ratios" ]; then
+    cat "$ratios"
+fi
 exec "$python" tools/dev/summary.py $summary

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """How far the chain and the 3x3 filters are from copying memory, and ahead of OpenCV.
 
-    ratios.py PEL [RUNS]
+    ratios.py PEL TABLE.txt [RUNS]
 
 Runs `pel bench`, which compares all results before it times any, and prints its ratios, each beside
 what pel aims at: times of AVX2 over those of copying the same frame, and OpenCV's times over those
 of the best backend. Times of machines that do other things as well decide nothing: this fails
-where results differ or where something was not measured, not where an aim is missed.
+where results differ or where something was not measured, not where an aim is missed. The table goes
+into the file, too.
 """
 import csv
 import io
@@ -52,25 +53,21 @@ def measure(pel, runs):
     return rows
 
 
-def report(title, aims, figure_of, is_met):
-    """Prints the figures; how many there are, and what is missing."""
-    measured, missing = 0, []
-    print(f"{title:40}{'measured':>10}{'aim':>8}")
+def table(title, aims, figure_of, is_met):
+    """The lines of a table, and what is missing in it."""
+    lines, missing = [f"{title:40}{'measured':>10}{'aim':>8}"], []
     for (operator, source), aim in aims.items():
         found = figure_of(operator, source)
         if found is None:
             missing.append(f"{operator} of {source}")
             continue
         figure, how = found
-        measured += 1
         mark = "" if is_met(figure, aim) else "  missed"
-        print(f"  {operator + ', ' + source + ', ' + how:38}{figure:10.1f}{aim:8g}{mark}")
-    return measured, missing
+        lines.append(f"  {operator + ', ' + source + ', ' + how:38}{figure:10.1f}{aim:8g}{mark}")
+    return lines, missing
 
 
-def main():
-    rows = measure(sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else "200")
-
+def tables(rows):
     def of(operator, source):
         return [row for row in rows if (row["operator"], row["input"]) == (operator, source)]
 
@@ -83,16 +80,24 @@ def main():
         best = max(found, key=lambda row: float(row["speedup_over_opencv"]), default=None)
         return (float(best["speedup_over_opencv"]), best["backend"]) if best else None
 
-    measured, missing = 0, []
-    aims = [("times OpenCV", TIMES_OPENCV, times_opencv, lambda figure, aim: figure >= aim)]
+    lines, missing = table("times OpenCV", TIMES_OPENCV, times_opencv,
+                           lambda figure, aim: figure >= aim)
     if any(row["backend"] == "avx2" for row in rows):
-        aims.insert(0, ("copies of the frame", COPIES, copies, lambda figure, aim: figure <= aim))
-    for title, wanted, figure_of, is_met in aims:
-        more, lacking = report(title, wanted, figure_of, is_met)
-        measured += more
-        missing += lacking
-    for text in missing:
-        print(f"FAIL  not measured: {text}")
+        more, lacking = table("copies of the frame", COPIES, copies,
+                              lambda figure, aim: figure <= aim)
+        lines, missing = more + lines, lacking + missing
+    return lines, missing
+
+
+def main():
+    rows = measure(sys.argv[1], sys.argv[3] if len(sys.argv) > 3 else "200")
+    lines, missing = tables(rows)
+    text = "".join(line + "\n" for line in lines)
+    Path(sys.argv[2]).write_text(text, encoding="utf-8")
+    print(text, end="")
+    for what in missing:
+        print(f"FAIL  not measured: {what}")
+    measured = sum(line.startswith("  ") for line in lines)
     print(f"{measured} passed, {len(missing)} failed")
     return 1 if missing or not measured else 0
 

@@ -40,7 +40,7 @@ static uint16_t canny_work[PEL_CANNY_WORDS(WIDTH)];
 
 static pel_canny_config canny_config(uint16_t low, uint16_t high)
 {
-    pel_canny_config c;
+    pel_canny_config c = {0};
     c.width = WIDTH;
     c.height = HEIGHT;
     c.low = low;

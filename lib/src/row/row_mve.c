@@ -371,6 +371,13 @@ NAKED static uint16_t runs_chroma_first(UNUSED const pel_row_boxes *boxes,
     FIND_RUNS(PIXELS_AT_CHROMA, "q1", "q3", "q0", "q2");
 }
 
+static uint16_t runs_of_blocks(const pel_row_boxes *boxes, const pel_row_pairs *src, uint16_t count,
+                               uint8_t *labels, uint16_t *edges)
+{
+    return src->y < src->u && src->y < src->v ? runs_luma_first(boxes, src, count, labels, edges)
+                                              : runs_chroma_first(boxes, src, count, labels, edges);
+}
+
 /* Rows that are not packed, or not of whole blocks. */
 static __attribute__((noinline)) uint16_t find_in_any(const pel_row_boxes *boxes,
                                                       const pel_row_pairs *src, uint16_t count,
@@ -386,7 +393,7 @@ static __attribute__((noinline)) uint16_t find_in_any(const pel_row_boxes *boxes
         return pel_row_find_runs_mve(labels, count, edges);
     }
     if (done != 0) {
-        next = edges + 2 * (size_t)pel_row_classify_runs_mve(boxes, src, done, labels, edges);
+        next = edges + 2 * (size_t)runs_of_blocks(boxes, src, done, labels, edges);
         writer.begin = next;
         writer.end = next + 1;
         if (next != edges && next[-1] == done) { /* it may go on */
@@ -405,8 +412,7 @@ uint16_t pel_row_classify_runs_mve(const pel_row_boxes *boxes, const pel_row_pai
     if (src->y_step != 2 || count % BLOCK != 0) {
         return find_in_any(boxes, src, count, labels, edges);
     }
-    return src->y < src->u && src->y < src->v ? runs_luma_first(boxes, src, count, labels, edges)
-                                              : runs_chroma_first(boxes, src, count, labels, edges);
+    return runs_of_blocks(boxes, src, count, labels, edges);
 }
 
 #else
