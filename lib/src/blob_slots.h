@@ -77,7 +77,7 @@ static inline uint16_t pel_i_parent(const slot *s)
     return (uint16_t)s->root;
 }
 
-static inline unsigned pel_i_label(const slot *s)
+static inline unsigned pel_i_slot_label(const slot *s)
 {
     return s->root >> 16 & 0xFF;
 }

@@ -182,7 +182,7 @@ PEL_I_APART static void describe(const pel_blobs *b, unsigned id, pel_blob *blob
     blob->x1 = s->box.x1;
     blob->y0 = s->y0;
     blob->y1 = b->next_row;
-    blob->class_index = (uint8_t)(pel_i_label(s) - 1);
+    blob->class_index = (uint8_t)(pel_i_slot_label(s) - 1);
     blob->edges = (uint8_t)((s->box.x0 == 0 ? PEL_EDGE_LEFT : 0) |
                             (s->box.x1 == b->config.width ? PEL_EDGE_RIGHT : 0) |
                             (s->y0 == 0 ? PEL_EDGE_TOP : 0) |

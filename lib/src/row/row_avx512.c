@@ -6,7 +6,8 @@
 
 #define FEATURES "avx512f,avx512bw,avx512vl,avx512vbmi,avx512vbmi2,bmi,bmi2,popcnt"
 #define ISA __attribute__((target(FEATURES)))
-#define INLINE __attribute__((target(FEATURES), always_inline)) static inline
+/* Some of what the templates hold is not of use here. */
+#define INLINE __attribute__((target(FEATURES), always_inline, unused)) static inline
 #define APART __attribute__((target(FEATURES), noinline)) static
 #define KERNEL(name) pel_row_##name##_avx512
 #define V(operation) _mm512_##operation

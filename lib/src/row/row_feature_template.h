@@ -99,27 +99,31 @@ INLINE vec circle_at(const uint8_t *const rows[], int x, int places)
 #define PAIR_AT(i, inner) inner(circle_at(rows, x, i), circle_at(rows, x, (i) + 1))
 #define ARCS(first, second, i, inner, outer)                                                       \
     inner(inner(first, second), outer(circle_at(rows, x, i), circle_at(rows, x, (i) + 9)))
-#define BEST_ARC(name, inner, outer)                                                               \
-    INLINE vec name(const uint8_t *const rows[], int x)                                            \
-    {                                                                                              \
-        const vec p1 = PAIR_AT(1, inner), p3 = PAIR_AT(3, inner), p5 = PAIR_AT(5, inner);          \
-        const vec p7 = PAIR_AT(7, inner), p9 = PAIR_AT(9, inner), p11 = PAIR_AT(11, inner);        \
-        const vec p13 = PAIR_AT(13, inner), p15 = PAIR_AT(15, inner);                              \
-        READ_AGAIN;                                                                                \
-        const vec q1 = inner(p1, p3), q3 = inner(p3, p5), q5 = inner(p5, p7), q7 = inner(p7, p9);  \
-        const vec q9 = inner(p9, p11), q11 = inner(p11, p13), q13 = inner(p13, p15);               \
-        const vec q15 = inner(p15, p1);                                                            \
-        vec best = outer(ARCS(q1, q5, 0, inner, outer), ARCS(q3, q7, 2, inner, outer));            \
-        best = outer(best, ARCS(q5, q9, 4, inner, outer));                                         \
-        best = outer(best, ARCS(q7, q11, 6, inner, outer));                                        \
-        best = outer(best, ARCS(q9, q13, 8, inner, outer));                                        \
-        best = outer(best, ARCS(q11, q15, 10, inner, outer));                                      \
-        best = outer(best, ARCS(q13, q1, 12, inner, outer));                                       \
-        return outer(best, ARCS(q15, q3, 14, inner, outer));                                       \
-    }
+#define BEST_ARC(inner, outer)                                                                     \
+    const vec p1 = PAIR_AT(1, inner), p3 = PAIR_AT(3, inner), p5 = PAIR_AT(5, inner);              \
+    const vec p7 = PAIR_AT(7, inner), p9 = PAIR_AT(9, inner), p11 = PAIR_AT(11, inner);            \
+    const vec p13 = PAIR_AT(13, inner), p15 = PAIR_AT(15, inner);                                  \
+    READ_AGAIN;                                                                                    \
+    const vec q1 = inner(p1, p3), q3 = inner(p3, p5), q5 = inner(p5, p7), q7 = inner(p7, p9);      \
+    const vec q9 = inner(p9, p11), q11 = inner(p11, p13), q13 = inner(p13, p15);                   \
+    const vec q15 = inner(p15, p1);                                                                \
+    vec best = outer(ARCS(q1, q5, 0, inner, outer), ARCS(q3, q7, 2, inner, outer));                \
+    best = outer(best, ARCS(q5, q9, 4, inner, outer));                                             \
+    best = outer(best, ARCS(q7, q11, 6, inner, outer));                                            \
+    best = outer(best, ARCS(q9, q13, 8, inner, outer));                                            \
+    best = outer(best, ARCS(q11, q15, 10, inner, outer));                                          \
+    best = outer(best, ARCS(q13, q1, 12, inner, outer));                                           \
+    return outer(best, ARCS(q15, q3, 14, inner, outer))
 
-BEST_ARC(brightest_arc, V(min_epu8), V(max_epu8))
-BEST_ARC(darkest_arc, V(max_epu8), V(min_epu8))
+INLINE vec brightest_arc(const uint8_t *const rows[], int x)
+{
+    BEST_ARC(V(min_epu8), V(max_epu8));
+}
+
+INLINE vec darkest_arc(const uint8_t *const rows[], int x)
+{
+    BEST_ARC(V(max_epu8), V(min_epu8));
+}
 
 INLINE vec contrast_of(vec bright, vec centre, vec dark)
 {

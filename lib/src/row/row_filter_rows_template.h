@@ -6,19 +6,19 @@
  * Strips begin where those of the first row fill cache lines, or parts of them: stores that pass
  * the end of a line take several times as long. The first strip and the last one overlap others.
  */
-#define ROWS(name, pixel)                                                                          \
+#define ROWS(name, strip, pixel)                                                                   \
     ISA void KERNEL(name##_rows)(const uint8_t *const rows[], uint16_t count, uint16_t height,     \
                                  pixel *out, ptrdiff_t stride)                                     \
     {                                                                                              \
         const int last = count - LANES;                                                            \
         const int skew = (int)((uintptr_t)out / sizeof(pixel) % LANES);                            \
                                                                                                    \
-        name##_strip(rows, 0, height, out, stride);                                                \
+        strip(rows, 0, height, out, stride);                                                       \
         for (int x = LANES - skew; x < last; x += LANES) {                                         \
-            name##_strip(rows, x, height, out + x, stride);                                        \
+            strip(rows, x, height, out + x, stride);                                               \
         }                                                                                          \
         if (last > 0) {                                                                            \
-            name##_strip(rows, last, height, out + last, stride);                                  \
+            strip(rows, last, height, out + last, stride);                                         \
         }                                                                                          \
     }
 
@@ -70,7 +70,7 @@ INLINE void gauss3_strip(const uint8_t *const rows[], int x, int height, uint8_t
     }
 }
 
-ROWS(gauss3, uint8_t)
+ROWS(gauss3, gauss3_strip, uint8_t)
 
 /* ---- Gradients ----------------------------------------------------------------------------- */
 
@@ -92,7 +92,7 @@ INLINE void sobel_x_strip(const uint8_t *const rows[], int x, int height, int16_
     }
 }
 
-ROWS(sobel_x, int16_t)
+ROWS(sobel_x, sobel_x_strip, int16_t)
 
 /* Of three neighbours: 1 2 1, and the right one less the left one. */
 typedef struct sobel_row {
@@ -120,7 +120,7 @@ INLINE void sobel_y_strip(const uint8_t *const rows[], int x, int height, int16_
     }
 }
 
-ROWS(sobel_y, int16_t)
+ROWS(sobel_y, sobel_y_strip, int16_t)
 
 typedef struct gradients {
     parities x, y;
@@ -170,7 +170,7 @@ INLINE void gradient_abs_strip(const uint8_t *const rows[], int x, int height, u
     }
 }
 
-ROWS(gradient_abs, uint8_t)
+ROWS(gradient_abs, gradient_abs_strip, uint8_t)
 
 /*
  * floor(sqrt(gx^2 + gy^2)), up to 255, in two ways: the unit that takes roots is as long about them
@@ -233,7 +233,7 @@ INLINE void gradient_strip(const uint8_t *const rows[], int x, int height, uint8
     store(out, lengths_of(last));
 }
 
-ROWS(gradient, uint8_t)
+ROWS(gradient, gradient_strip, uint8_t)
 
 /* ---- Order --------------------------------------------------------------------------------- */
 
@@ -255,7 +255,7 @@ INLINE void min3_strip(const uint8_t *const rows[], int x, int height, uint8_t *
     }
 }
 
-ROWS(min3, uint8_t)
+ROWS(min3, min3_strip, uint8_t)
 
 INLINE vec largest_of_row(const uint8_t *p)
 {
@@ -275,7 +275,7 @@ INLINE void max3_strip(const uint8_t *const rows[], int x, int height, uint8_t *
     }
 }
 
-ROWS(max3, uint8_t)
+ROWS(max3, max3_strip, uint8_t)
 
 /* ---- Taps of one's own --------------------------------------------------------------------- */
 
