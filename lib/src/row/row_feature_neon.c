@@ -14,11 +14,6 @@
 
 enum { LANES = PEL_ROW_LANES_NEON };
 
-INLINE vec neon_andnot(vec a, vec b)
-{
-    return vbicq_u8(b, a);
-}
-
 INLINE vec neon_srai_epi16(vec v, int bits)
 {
     return of_s16(as_s16(v) >> (int16_t)bits);

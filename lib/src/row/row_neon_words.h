@@ -88,6 +88,12 @@ static inline vec neon_and(vec a, vec b)
     return vandq_u8(a, b);
 }
 
+/* Of b what is not in a. */
+static inline vec neon_andnot(vec a, vec b)
+{
+    return vbicq_u8(b, a);
+}
+
 static inline vec neon_or(vec a, vec b)
 {
     return vorrq_u8(a, b);

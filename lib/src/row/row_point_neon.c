@@ -12,11 +12,6 @@ enum { LANES = PEL_ROW_LANES_NEON };
 
 /* ---- More words of x86 --------------------------------------------------------------------- */
 
-INLINE vec neon_andnot(vec a, vec b)
-{
-    return vbicq_u8(b, a);
-}
-
 INLINE vec neon_subs_epu16(vec a, vec b)
 {
     return of_u16(vqsubq_u16(as_u16(a), as_u16(b)));
