@@ -2,11 +2,14 @@
 
 Requests come line by line on standard input, answers go to standard output:
 
-    picture WIDTH HEIGHT BOXES   and the bytes of 6 * BOXES box sides, the YUYV and the RGB picture:
-                                 answered by "ok"
-    prepare JOB                  "result BYTES" and those bytes, or "none" if there is no such job
-    run REPEAT COUNT             COUNT times in a line, nanoseconds of REPEAT runs of that job
+    picture WIDTH HEIGHT BOXES FRAMES
+                       and the bytes of 6 * BOXES box sides, the YUYV and the RGB picture, of which
+                       FRAMES copies are made: answered by "ok"
+    prepare JOB        "result BYTES" and those bytes, or "none" if there is no such job
+    run REPEAT COUNT   COUNT times in a line, nanoseconds of REPEAT runs of that job, each of which
+                       reads the next copy
 """
+import itertools
 import os
 import sys
 import time
@@ -39,33 +42,39 @@ HARRIS_K = 1311 / 32768
 AREA_MIN = 20
 
 
-class Picture:
-    def __init__(self, width, height, boxes, yuyv, rgb):
-        self.boxes, self.width, self.height = boxes, width, height
-        self.yuyv = yuyv.reshape(height, width, 2)
-        self.rgb = rgb.reshape(height, width, 3)
+class Frame:
+    """A copy of the picture."""
+    def __init__(self, width, height, yuyv, rgb):
+        self.yuyv = yuyv.copy().reshape(height, width, 2)
+        self.pairs = self.yuyv.reshape(height, width // 2, 4)
+        self.rgb = rgb.copy().reshape(height, width, 3)
         self.gray = np.ascontiguousarray(self.yuyv[..., 0])
         self.turned = np.ascontiguousarray(self.gray[::-1, ::-1])
+
+
+class Picture:
+    def __init__(self, width, height, boxes, frames):
+        self.boxes, self.width, self.height, self.frames = boxes, width, height, frames
 
     def like(self, dtype=np.uint8, channels=None):
         shape = (self.height, self.width) + ((channels,) if channels else ())
         return np.empty(shape, dtype)
 
 
-# ---- Jobs: each takes a picture and gives a function that runs and returns the result --------
+# ---- Jobs: each takes a picture and gives a function that takes one of its frames, runs and
+# returns the result ---------------------------------------------------------------------------
 
 
 def to_yuv444(p):
     """Three planes, each chroma value twice."""
-    pairs = p.yuyv.reshape(p.height, p.width // 2, 4)
     half = [np.empty((p.height, p.width // 2), np.uint8) for _ in range(2)]
     y, u, v = p.like(), p.like(), p.like()
     size = (p.width, p.height)
 
-    def run():
-        cv2.extractChannel(p.yuyv, 0, y)
-        cv2.extractChannel(pairs, 1, half[0])
-        cv2.extractChannel(pairs, 3, half[1])
+    def run(f):
+        cv2.extractChannel(f.yuyv, 0, y)
+        cv2.extractChannel(f.pairs, 1, half[0])
+        cv2.extractChannel(f.pairs, 3, half[1])
         cv2.resize(half[0], size, u, interpolation=cv2.INTER_NEAREST)
         cv2.resize(half[1], size, v, interpolation=cv2.INTER_NEAREST)
         return y, u, v
@@ -77,8 +86,8 @@ def masks(p, use):
     planes, yuv, mask = to_yuv444(p), p.like(channels=3), p.like()
     bounds = [tuple(tuple(map(int, box[i::2])) for i in range(2)) for box in p.boxes]
 
-    def run():
-        cv2.merge(planes(), yuv)
+    def run(f):
+        cv2.merge(planes(f), yuv)
         return [use(number, cv2.inRange(yuv, low, high, mask))
                 for number, (low, high) in enumerate(bounds)]
     return run
@@ -91,9 +100,9 @@ def classify(p):
         value.fill(number + 1)
     paint = masks(p, lambda number, mask: cv2.copyTo(values[number], mask, labels))
 
-    def run():
+    def run(f):
         labels.fill(0)
-        paint()
+        paint(f)
         return labels
     return run
 
@@ -122,20 +131,21 @@ def finish_blobs(classes):
 
 def sobel(p, depth, dx, dy):
     out = p.like(np.int16 if depth == cv2.CV_16S else np.float32)
-    return lambda: cv2.Sobel(p.gray, depth, dx, dy, out, 3, borderType=EDGE)
+    return lambda f: cv2.Sobel(f.gray, depth, dx, dy, out, 3, borderType=EDGE)
 
 
 def gradient_abs(p):
     across, down = sobel(p, cv2.CV_16S, 1, 0), sobel(p, cv2.CV_16S, 0, 1)
     a, b, out = p.like(), p.like(), p.like()
-    return lambda: cv2.add(cv2.convertScaleAbs(across(), a), cv2.convertScaleAbs(down(), b), out)
+    return lambda f: cv2.add(cv2.convertScaleAbs(across(f), a), cv2.convertScaleAbs(down(f), b),
+                             out)
 
 
 def of_gradient(function, scale):
     def prepare(p):
         across, down = sobel(p, cv2.CV_32F, 1, 0), sobel(p, cv2.CV_32F, 0, 1)
         wide, out = p.like(np.float32), p.like()
-        return lambda: cv2.convertScaleAbs(function(across(), down(), wide), out, scale)
+        return lambda f: cv2.convertScaleAbs(function(across(f), down(f), wide), out, scale)
     return prepare
 
 
@@ -146,36 +156,36 @@ def direction(gx, gy, out):
 def filter2d(kernel, depth=-1):
     def prepare(p):
         out = p.like(np.uint8 if depth == -1 else np.int16)
-        return lambda: cv2.filter2D(p.gray, depth, kernel, out, borderType=EDGE)
+        return lambda f: cv2.filter2D(f.gray, depth, kernel, out, borderType=EDGE)
     return prepare
 
 
 def gray_to_gray(function):
     def prepare(p):
         out = p.like()
-        return lambda: function(p.gray, out)
+        return lambda f: function(f.gray, out)
     return prepare
 
 
 def two(function):
     def prepare(p):
         out = p.like()
-        return lambda: function(p.gray, p.turned, out)
+        return lambda f: function(f.gray, f.turned, out)
     return prepare
 
 
 def color(source, code):
     def prepare(p):
         out = p.like(channels=3)
-        return lambda: cv2.cvtColor(getattr(p, source), code, out)
+        return lambda f: cv2.cvtColor(getattr(f, source), code, out)
     return prepare
 
 
 def two_steps(first, second):
     def prepare(p):
         between, out = p.like(), p.like()
-        return lambda: second(first(p.gray, BOX3, between, borderType=EDGE), BOX3, out,
-                              borderType=EDGE)
+        return lambda f: second(first(f.gray, BOX3, between, borderType=EDGE), BOX3, out,
+                                borderType=EDGE)
     return prepare
 
 
@@ -183,23 +193,23 @@ def resize(method, numerator, denominator):
     def prepare(p):
         size = tuple(side * numerator // denominator for side in (p.width, p.height))
         out = np.empty(size[::-1], np.uint8)
-        return lambda: cv2.resize(p.gray, size, out, interpolation=method)
+        return lambda f: cv2.resize(f.gray, size, out, interpolation=method)
     return prepare
 
 
 def integral(p):
     out = np.empty((p.height + 1, p.width + 1), np.int32)
-    return lambda: cv2.integral(p.gray, out)
+    return lambda f: cv2.integral(f.gray, out)
 
 
 def harris(p):
     out = p.like(np.float32)
-    return lambda: cv2.cornerHarris(p.gray, 3, 3, HARRIS_K, out, EDGE)
+    return lambda f: cv2.cornerHarris(f.gray, 3, 3, HARRIS_K, out, EDGE)
 
 
 def shi_tomasi(p):
     out = p.like(np.float32)
-    return lambda: cv2.cornerMinEigenVal(p.gray, 3, out, 3, EDGE)
+    return lambda f: cv2.cornerMinEigenVal(f.gray, 3, out, 3, EDGE)
 
 
 # OpenCV's gradients are ours / (4 * 3 * 255); Harris responses are in units of 2^14.
@@ -235,7 +245,7 @@ JOBS = {
     "threshold": (gray_to_gray(lambda g, out: cv2.threshold(g, 127, 255, cv2.THRESH_BINARY,
                                                             out)[1]), None),
     "table": (gray_to_gray(lambda g, out: cv2.LUT(g, GAMMA, out)), None),
-    "histogram": (lambda p: lambda: cv2.calcHist([p.gray], [0], None, [256], [0, 256]),
+    "histogram": (lambda p: lambda f: cv2.calcHist([f.gray], [0], None, [256], [0, 256]),
                   lambda counts: counts.astype(np.uint32)),
     "equalize": (gray_to_gray(cv2.equalizeHist), None),
     "adaptive": (gray_to_gray(lambda g, out: cv2.adaptiveThreshold(
@@ -266,11 +276,13 @@ def read_bytes(count):
     return np.frombuffer(sys.stdin.buffer.read(count), np.uint8)
 
 
-def read_picture(width, height, count):
+def read_picture(width, height, count, frames):
     boxes = read_bytes(6 * count).reshape(count, 6)
     yuyv, rgb = read_bytes(2 * width * height), read_bytes(3 * width * height)
+    picture = Picture(width, height, boxes,
+                      [Frame(width, height, yuyv, rgb) for _ in range(frames)])
     answer("ok")
-    return Picture(width, height, boxes, yuyv, rgb)
+    return picture
 
 
 def prepare(picture, name):
@@ -279,34 +291,34 @@ def prepare(picture, name):
         return None
     start, finish = JOBS[name]
     run = start(picture)
-    result = run()
+    result = run(picture.frames[0])
     data = np.ascontiguousarray(finish(result) if finish else result).tobytes()
     answer("result %d" % len(data), data)
     return run
 
 
-def measure(run, repeat, count):
+def measure(run, turns, repeat, count):
     clock = time.process_time_ns  # with all of its threads, without other processes
     times = []
     for _ in range(count):
         start = clock()
-        for _ in range(repeat):
-            run()
+        for frame in itertools.islice(turns, repeat):
+            run(frame)
         times.append(clock() - start)
     answer(" ".join(map(str, times)))
 
 
 def main():
     answer("opencv %s" % cv2.__version__)
-    picture = run = None
+    picture = run = turns = None
     for line in iter(sys.stdin.buffer.readline, b""):
         word, *more = line.decode().split()
         if word == "picture":
             picture = read_picture(*map(int, more))
         elif word == "prepare":
-            run = prepare(picture, *more)
+            run, turns = prepare(picture, *more), itertools.cycle(picture.frames)
         else:
-            measure(run, *map(int, more))
+            measure(run, turns, *map(int, more))
 
 
 main()

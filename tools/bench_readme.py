@@ -15,6 +15,7 @@ README = pathlib.Path(__file__).resolve().parents[1] / "README.md"
 BEGIN, END = "<!-- speed begin -->\n", "<!-- speed end -->\n"
 BACKENDS = ("scalar", "ssse3", "avx2", "avx512")
 OPERATORS = {"blobs": "YUYV to blobs", "gauss3": "3x3 Gaussian", "sobel-x": "Sobel across, 16 bits",
+             "gradient-abs": "size of Sobel's gradient, as a sum",
              "gradient": "size of Sobel's gradient", "kernel3": "any 3x3 kernel",
              "median": "3x3 median", "min": "3x3 erosion"}
 
@@ -51,21 +52,29 @@ def table(rows):
                      + f" | {cell(best, 'opencv_ns_per_px')} | "
                      + (f"{float(faster):.1f}" if faster else "")
                      + f" | {float(best['ratio_to_memcpy']):.1f} |")
-    return lines, f"{rows[0]['width']}x{rows[0]['height']}", rows[0]["runs"]
+    return lines
+
+
+def note_on(row):
+    """How it was measured."""
+    frames = "the same frame again and again"
+    if row["frames"] != "1":
+        frames = f"{row['frames']} copies of the frame in turn"
+    return (f"Medians of {row['runs']} runs, {row['width']}x{row['height']}, {frames}, "
+            f"{processor()}, one core.\n")
 
 
 def main():
     with open(sys.argv[1], newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    lines, size, runs = table(rows)
+    lines = table(rows)
     readme = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else README
     text = readme.read_text(encoding="utf-8")
     if text.count(BEGIN) != 1 or text.count(END) != 1:
         sys.exit("bench_readme.py: the README has not one place for speed")
     before, rest = text.split(BEGIN)
     after = rest.split(END)[1]
-    note = f"Medians of {runs} runs, {size}, {processor()}, one core.\n"
-    readme.write_text(before + BEGIN + "\n".join(lines) + "\n\n" + note + END + after,
+    readme.write_text(before + BEGIN + "\n".join(lines) + "\n\n" + note_on(rows[0]) + END + after,
                       encoding="utf-8")
     return 0
 

@@ -77,7 +77,6 @@ int benchmeasure_compare(const bench_op *op, const bench_picture *picture,
 
 /* Copying what the operator reads; through a volatile pointer, which no compiler leaves out. */
 typedef struct copy_job {
-    const uint8_t *from;
     uint8_t *to;
     size_t bytes;
 } copy_job;
@@ -88,19 +87,31 @@ static void *(*volatile copy_bytes)(void *, const void *, size_t) = memcpy;
 typedef struct series {
     bench_job *job;
     const copy_job *copy;
+    const bench_ring *ring;
+    bench_form form; /* what is read */
+    unsigned turn;   /* the frame that is next */
     unsigned repeat;
     double *ns; /* a place for each run */
 } series;
 
-static double time_once(const series *of)
+static void run_once(series *of)
+{
+    const uint8_t *from = of->ring->frame[of->form][of->turn];
+    if (of->job) {
+        of->job->in.plane[0] = from;
+        of->job->other.plane[0] = of->ring->frame[BENCH_TURNED][of->turn];
+        of->job->op->run(of->job);
+    } else {
+        copy_bytes(of->copy->to, from, of->copy->bytes);
+    }
+    of->turn = of->turn + 1 < of->ring->count ? of->turn + 1 : 0;
+}
+
+static double time_once(series *of)
 {
     const double start = benchtime_now_ns();
     for (unsigned i = 0; i < of->repeat; i++) {
-        if (of->job) {
-            of->job->op->run(of->job);
-        } else {
-            copy_bytes(of->copy->to, of->copy->from, of->copy->bytes);
-        }
+        run_once(of);
     }
     return (benchtime_now_ns() - start) / of->repeat;
 }
@@ -170,7 +181,8 @@ static void take_figures(race *all, unsigned runs, double pixels, bench_figure *
     for (unsigned i = 1; i < all->count; i++) {
         bench_figure *figure = &figures[i - 1];
         figure->op = all->runner[i].job->op;
-        figure->picture = all->runner[i].job->picture;
+        figure->picture = all->runner[i].ring->picture;
+        figure->frames = all->runner[i].ring->count;
         figure->backend = all->runner[i].job->backend;
         figure->own = benchtime_spread(all->runner[i].ns, runs, pixels);
         figure->copy = copy;
@@ -198,22 +210,24 @@ static int race_and_take(race *all, unsigned runs, double *times, double pixels,
     return 0;
 }
 
-int benchmeasure_time(const bench_op *op, const bench_picture *picture,
-                      const bench_backends *backends, benchpeer *peer, unsigned runs,
-                      bench_figure *figures)
+int benchmeasure_time(const bench_op *op, const bench_ring *ring, const bench_backends *backends,
+                      benchpeer *peer, unsigned runs, bench_figure *figures)
 {
     static bench_job jobs[PEL_BACKEND_COUNT];
-    const pel_cview view = benchpicture_view(picture, op->form);
-    copy_job copy = {view.plane[0], NULL,
-                     pel_frame_bytes(view.format, picture->width, picture->height)};
+    const pel_cview view = benchpicture_view(ring->picture, op->form);
+    copy_job copy = {NULL, pel_frame_bytes(view.format, view.width, view.height)};
     race all = {.count = 1 + backends->count};
     size_t bytes = 0;
     int failed = 0;
     double *times = malloc((all.count + 1) * (size_t)runs * sizeof *times);
     copy.to = malloc(copy.bytes);
+    for (unsigned i = 0; i < all.count; i++) {
+        all.runner[i].ring = ring;
+        all.runner[i].form = op->form;
+    }
     all.runner[0].copy = &copy;
     for (unsigned i = 0; i < backends->count; i++) {
-        failed |= benchops_start(&jobs[i], op, picture, backends->of[i]);
+        failed |= benchops_start(&jobs[i], op, ring->picture, backends->of[i]);
         all.runner[i + 1].job = &jobs[i];
     }
     const int got = op->fits ? benchpeer_prepare(peer, op->name, &bytes) : 0;
@@ -222,7 +236,7 @@ int benchmeasure_time(const bench_op *op, const bench_picture *picture,
         failed = say_error("bench", "out of memory");
     }
     failed = failed || got < 0 ||
-             race_and_take(&all, runs, times, (double)picture->width * picture->height, figures);
+             race_and_take(&all, runs, times, (double)view.width * view.height, figures);
     for (unsigned i = 0; i < backends->count; i++) {
         benchops_stop(&jobs[i]);
     }

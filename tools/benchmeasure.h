@@ -4,6 +4,7 @@
 
 #include "benchops.h"
 #include "benchpeer.h"
+#include "benchring.h"
 #include "benchtime.h"
 
 /* Which backends, in the order of the enum. */
@@ -30,6 +31,7 @@ int benchmeasure_compare(const bench_op *op, const bench_picture *picture,
 typedef struct bench_figure {
     const bench_op *op;
     const bench_picture *picture;
+    unsigned frames; /* how many copies of it took turns */
     pel_backend backend;
     bench_spread own;
     bench_spread copy; /* of memcpy of what the operator reads */
@@ -40,11 +42,11 @@ typedef struct bench_figure {
 /*
  * Times the operator with each backend, into figures[0 .. backends->count - 1]. All take turns in
  * ten rounds, so that what happens to the machine meanwhile happens to all of them: memcpy, each
- * backend, OpenCV. What is over in less than 50 microseconds is repeated so often that it takes
- * that long. 0, or -1 after a message.
+ * backend, OpenCV, whose process has the picture as often as the ring. What is over in less than 50
+ * microseconds is repeated so often that it takes that long. Every run and repetition reads the
+ * ring's next frame, all write into one place. 0, or -1 after a message.
  */
-int benchmeasure_time(const bench_op *op, const bench_picture *picture,
-                      const bench_backends *backends, benchpeer *peer, unsigned runs,
-                      bench_figure *figures);
+int benchmeasure_time(const bench_op *op, const bench_ring *ring, const bench_backends *backends,
+                      benchpeer *peer, unsigned runs, bench_figure *figures);
 
 #endif

@@ -140,6 +140,7 @@ int benchops_start(bench_job *job, const bench_op *op, const bench_picture *pict
     job->picture = picture;
     job->backend = backend;
     job->in = benchpicture_view(picture, op->form);
+    job->other = benchpicture_view(picture, BENCH_TURNED);
     return op->start(job)
                ? say_error("bench", "%s of %s cannot be prepared", op->name, picture->name)
                : 0;

@@ -40,7 +40,8 @@ struct bench_job {
     const bench_op *op;
     const bench_picture *picture;
     pel_backend backend;
-    pel_cview in;
+    pel_cview in;              /* what run reads; another frame is read by another plane[0] */
+    pel_cview other;           /* the second picture, where an operator has two */
     void *block[BENCH_BLOCKS]; /* memory of the job */
     unsigned blocks;
     uint8_t *out; /* the result */

@@ -91,14 +91,14 @@ static int send_form(benchpeer *peer, const bench_picture *picture, bench_form f
     return fwrite(view.plane[0], 1, bytes, peer->to) == bytes ? 0 : -1;
 }
 
-int benchpeer_picture(benchpeer *peer, const bench_picture *picture)
+int benchpeer_picture(benchpeer *peer, const bench_picture *picture, unsigned frames)
 {
     char line[8];
     if (!peer->process) {
         return 0;
     }
-    fprintf(peer->to, "picture %u %u %u\n", (unsigned)picture->width, (unsigned)picture->height,
-            picture->box_count);
+    fprintf(peer->to, "picture %u %u %u %u\n", (unsigned)picture->width, (unsigned)picture->height,
+            picture->box_count, frames);
     for (unsigned i = 0; i < picture->box_count; i++) {
         const pel_color_box *box = &picture->box[i];
         const uint8_t sides[6] = {box->y_min, box->y_max, box->u_min,

@@ -26,8 +26,8 @@ int benchpeer_start(benchpeer *peer, const char *python);
 
 /* All: -1 after a message if the process does not answer as it should. */
 
-/* Hands over the picture that the jobs work on. */
-int benchpeer_picture(benchpeer *peer, const bench_picture *picture);
+/* Hands over the picture that the jobs work on; `frames` copies of it take turns there. */
+int benchpeer_picture(benchpeer *peer, const bench_picture *picture, unsigned frames);
 
 /* Prepares a job, runs it and fetches its result into `result`: 1 done, 0 there is no such job. */
 int benchpeer_prepare(benchpeer *peer, const char *job, size_t *bytes);

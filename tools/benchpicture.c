@@ -25,7 +25,7 @@ static void fill_gray(bench_picture *picture)
     for (unsigned y = 0; y < picture->height; y++) {
         const uint8_t *from = plain_row(&picture->form[BENCH_YUYV].view, y);
         uint8_t *gray = plain_row(&picture->form[BENCH_GRAY].view, y);
-        uint8_t *turned = plain_row(&picture->turned.view, picture->height - 1u - y);
+        uint8_t *turned = plain_row(&picture->form[BENCH_TURNED].view, picture->height - 1u - y);
         for (unsigned x = 0; x < picture->width; x++) {
             gray[x] = from[2 * x];
             turned[picture->width - 1u - x] = from[2 * x];
@@ -62,7 +62,7 @@ static int complete(bench_picture *picture)
     if (room(picture, &picture->form[BENCH_GRAY], PEL_GRAY8) ||
         room(picture, &picture->form[BENCH_RGB], PEL_RGB888) ||
         room(picture, &picture->form[BENCH_LABELS], PEL_GRAY8) ||
-        room(picture, &picture->turned, PEL_GRAY8)) {
+        room(picture, &picture->form[BENCH_TURNED], PEL_GRAY8)) {
         return -1;
     }
     const pel_cview yuyv = benchpicture_view(picture, BENCH_YUYV);
@@ -163,5 +163,4 @@ void benchpicture_free(bench_picture *picture)
     for (int i = 0; i < BENCH_FORMS; i++) {
         frame_free(&picture->form[i]);
     }
-    frame_free(&picture->turned);
 }

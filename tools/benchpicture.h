@@ -11,6 +11,7 @@ typedef enum bench_form {
     BENCH_GRAY,     /* its Y */
     BENCH_RGB,      /* its colours */
     BENCH_LABELS,   /* what its classes make of it */
+    BENCH_TURNED,   /* its Y turned by half a turn: the other one for two-picture jobs */
     BENCH_FORMS
 } bench_form;
 
@@ -22,7 +23,6 @@ typedef struct bench_picture {
     unsigned box_count;
     pel_boxes boxes;
     frame form[BENCH_FORMS];
-    frame turned; /* the gray picture turned by half a turn: the other one for two-picture jobs */
 } bench_picture;
 
 /*

@@ -114,11 +114,16 @@ static void draw_grid(const canvas *on, unsigned panel, unsigned rows)
     }
 }
 
-static void draw_title(const canvas *on, unsigned panel, const bench_picture *input)
+static void draw_title(const canvas *on, unsigned panel, const bench_figure *figure)
 {
+    const bench_picture *input = figure->picture;
     char title[100];
-    snprintf(title, sizeof title, "%.40s, %ux%u", input->name, (unsigned)input->width,
-             (unsigned)input->height);
+    char turns[32] = "";
+    if (figure->frames > 1) {
+        snprintf(turns, sizeof turns, ", %u copies in turn", figure->frames);
+    }
+    snprintf(title, sizeof title, "%.40s, %ux%u%s", input->name, (unsigned)input->width,
+             (unsigned)input->height, turns);
     text_draw(&on->picture.view, panel_left(panel), BENCHPLOT_TOP - 28, title, black);
 }
 
@@ -192,7 +197,7 @@ static void draw_figures(const canvas *on, unsigned rows)
         }
         if (i == 0 || row == 0) {
             draw_grid(on, panel, rows);
-            draw_title(on, panel, figure->picture);
+            draw_title(on, panel, figure);
         }
         draw_figure(on, figure, panel, row);
     }

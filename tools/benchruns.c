@@ -270,15 +270,13 @@ int benchruns_start_combine(bench_job *job)
 
 pel_status benchruns_combine(bench_job *job)
 {
-    const pel_cview turned = pel_view_to_read(&job->picture->turned.view);
-    return pel_combine_frame_with((pel_combine_op)job->op->choice, &job->in, &turned,
+    return pel_combine_frame_with((pel_combine_op)job->op->choice, &job->in, &job->other,
                                   &job->out_view, job->backend);
 }
 
 pel_status benchruns_blend(bench_job *job)
 {
-    const pel_cview turned = pel_view_to_read(&job->picture->turned.view);
-    return pel_blend_frame_with(64, &job->in, &turned, &job->out_view, job->backend);
+    return pel_blend_frame_with(64, &job->in, &job->other, &job->out_view, job->backend);
 }
 
 int benchruns_start_adaptive(bench_job *job)

@@ -22,24 +22,17 @@ static const char help[] =
     "Usage: pel bench [OPTION]... [FILE]...\n"
     "       pel bench --list\n"
     "\n"
-    "Measures how long every operator takes on this machine: with every backend (kind of "
-    "processor\n"
-    "instructions) that it has, beside copying the same frame and, where Python has the module "
-    "cv2,\n"
-    "beside OpenCV doing the same job. All are kept on one processor core and take turns; a figure "
-    "is\n"
-    "the median of many runs, with the quartiles, of processor time, so that other programs do "
-    "not\n"
-    "count. Before anything is timed, the results of all\n"
-    "backends are compared with those of plain C, byte for byte, and those with OpenCV's; where "
-    "they\n"
+    "Measures how long every operator takes on this machine: with every backend (kind of\n"
+    "processor instructions) that it has, beside copying the same frame and, where Python has\n"
+    "the module cv2, beside OpenCV doing the same job. All are kept on one processor core and\n"
+    "take turns; a figure is the median of many runs, with the quartiles, of processor time, so\n"
+    "that other programs do not count. Before anything is timed, the results of all backends\n"
+    "are compared with those of plain C, byte for byte, and those with OpenCV's; where they\n"
     "differ, nothing is timed and the exit status is 1.\n"
     "\n"
-    "The inputs are 'synth' (coloured shapes, 8 classes), 'rand1' and 'rand4' (noise in every "
-    "pixel and\n"
-    "in cells of 4 x 4), 640x480, the same bytes everywhere, and each FILE (its first picture, "
-    "with six\n"
-    "classes that cover most bright colours).\n"
+    "The inputs are 'synth' (coloured shapes, 8 classes), 'rand1' and 'rand4' (noise in every\n"
+    "pixel and in cells of 4 x 4), 640x480, the same bytes everywhere, and each FILE (its first\n"
+    "picture, with six classes that cover most bright colours).\n"
     "\n"
     "What to measure; NAMES are separated by commas\n"
     "      --operator NAMES     these operators; --list shows all\n"
@@ -47,9 +40,15 @@ static const char help[] =
     "      --input NAMES        these inputs, or 'none' for the FILEs alone\n"
     "      --runs N             runs of each, 1..100000, default 200; with fewer than 200 figures "
     "jump\n"
+    "      --frames N           N copies of the frame in memory take turns, 1..64, default 16\n"
     "      --size WxH           only the middle of every input, both even, from 4x4 on\n"
     "      --raw FORMAT WxH     FILEs hold raw frames: YUYV 640x480, for example\n"
     "      --range RANGE        of raw YCbCr frames: full (default) or limited\n"
+    "\n"
+    "A robot's frames come one after the other from a ring of buffers and are read once each.\n"
+    "So every run, of memcpy and OpenCV too, reads the next of N equal copies and writes to one\n"
+    "place; with --frames 1 it is the same frame again, which stays in the cache. So do frames\n"
+    "of which N fit there, and where N would take over 256 MiB, there are fewer.\n"
     "\n"
     "OpenCV\n"
     "      --python PYTHON      the Python that has it; default: the environment's PEL_PYTHON, or "
@@ -63,18 +62,16 @@ static const char help[] =
     "      --csv                a line per operator, backend and input; the first line names the\n"
     "                           columns. Times are nanoseconds per pixel of the input, q1 and q3 "
     "their\n"
-    "                           quartiles; `compared` says with what a result was compared\n"
+    "                           quartiles; `compared` says with what a result was compared,\n"
+    "                           `frames` how many copies took turns\n"
     "      --plot OUT.png       also draw them\n"
     "      --list               the operators, backends and inputs that there are\n"
     "\n"
-    "OpenCV runs in one thread, its functions write into memory that is there already. What its "
-    "job\n"
-    "is stands in tools/bench_opencv.py: for blobs a connectedComponentsWithStats per class, which "
-    "has\n"
-    "no moments or outline (blobs-all). It rounds otherwise in gradient, direction, kernel5, "
-    "ycbcr, rgb,\n"
-    "hsv, equalize, blend and resize: a value may differ by 1 there, in Harris and Shi-Tomasi by\n"
-    "1/100000 of the largest response.\n"
+    "OpenCV runs in one thread, its functions write into memory that is there already. What its\n"
+    "job is stands in tools/bench_opencv.py: for blobs a connectedComponentsWithStats per\n"
+    "class, which has no moments or outline (blobs-all). It rounds otherwise in gradient,\n"
+    "direction, kernel5, ycbcr, rgb, hsv, equalize, blend and resize: a value may differ by 1\n"
+    "there, in Harris and Shi-Tomasi by 1/100000 of the largest response.\n"
     "\n"
     "Examples\n"
     "  pel bench\n"
@@ -82,14 +79,14 @@ static const char help[] =
     "  pel bench --csv --plot bench.png photo.jpg > bench.csv\n"
     "  pel bench --size 16x16 --no-opencv --backend scalar,avx2\n";
 
-enum { INPUTS = 3, PICTURES_MAX = 32, RUNS = 200 };
+enum { INPUTS = 3, PICTURES_MAX = 32, RUNS = 200, FRAMES = 16 };
 static const char *const inputs[INPUTS] = {"synth", "rand1", "rand4"};
 
 struct job {
     source_options input;
     const char *operator_names, *backend_names, *input_names;
     const char *plot, *python;
-    unsigned long runs;
+    unsigned long runs, frames;
     unsigned width, height; /* 0: all */
     int csv, no_opencv;
     const bench_op *ops[128]; /* those to measure */
@@ -97,6 +94,7 @@ struct job {
     bench_backends backends;
     bench_picture pictures[PICTURES_MAX];
     unsigned picture_count;
+    bench_ring ring; /* of the picture at work */
     benchpeer peer;
     bench_compared compared;
     int core; /* on which all runs; -1: wherever the system wants */
@@ -209,6 +207,7 @@ static const struct option long_options[] = {OPTIONS_INPUT,
                                              {"backend", required_argument, NULL, 'b'},
                                              {"input", required_argument, NULL, 'i'},
                                              {"runs", required_argument, NULL, 'r'},
+                                             {"frames", required_argument, NULL, 'm'},
                                              {"size", required_argument, NULL, 's'},
                                              {"python", required_argument, NULL, 'p'},
                                              {"no-opencv", no_argument, NULL, 'n'},
@@ -254,6 +253,8 @@ static int take_option(int option, int argc, char **argv, struct job *job)
         return check_names("input", optarg, input_name);
     case 'r':
         return options_number("--runs", optarg, 1, 100000, &job->runs);
+    case 'm':
+        return options_number("--frames", optarg, 1, BENCH_FRAMES_MAX, &job->frames);
     case 's':
         return read_size(job);
     case 'p':
@@ -339,7 +340,7 @@ static const char *name_of_backend(const bench_figure *f)
 static const char csv_header[] =
     "operator,backend,input,ns_per_px,ratio_to_memcpy,opencv_ns_per_px,speedup_over_opencv,"
     "ns_per_px_q1,ns_per_px_q3,memcpy_ns_per_px,memcpy_q1,memcpy_q3,opencv_q1,opencv_q3,runs,"
-    "width,height,compared\n";
+    "width,height,compared,frames\n";
 
 static void print_csv(const struct job *job, const bench_figure *f)
 {
@@ -359,9 +360,9 @@ static void print_csv(const struct job *job, const bench_figure *f)
         fputs(",,", stdout);
     }
     const int is_scalar = f->backend == PEL_BACKEND_SCALAR;
-    printf("%lu,%u,%u,%s%s%s\n", job->runs, (unsigned)f->picture->width,
+    printf("%lu,%u,%u,%s%s%s,%u\n", job->runs, (unsigned)f->picture->width,
            (unsigned)f->picture->height, is_scalar ? "" : "scalar",
-           !is_scalar && f->has_opencv ? "+" : "", f->has_opencv ? "opencv" : "");
+           !is_scalar && f->has_opencv ? "+" : "", f->has_opencv ? "opencv" : "", f->frames);
 }
 
 static void print_row(const bench_figure *f)
@@ -377,16 +378,21 @@ static void print_row(const bench_figure *f)
     putchar('\n');
 }
 
-static void print_heading(const struct job *job, const bench_picture *picture)
+static void print_heading(const struct job *job)
 {
+    const bench_picture *picture = job->ring.picture;
     if (job->csv) {
         return;
     }
-    printf("%s%s, %ux%u: nanoseconds per pixel, median and quartiles of %lu runs\n%-17s %-7s %8s "
-           "%16s %9s",
+    printf("%s%s, %ux%u: nanoseconds per pixel, median and quartiles of %lu runs\n",
            picture == job->pictures ? "" : "\n", picture->name, (unsigned)picture->width,
-           (unsigned)picture->height, job->runs, "operator", "backend", "ns/px", "quartiles",
-           "x memcpy");
+           (unsigned)picture->height, job->runs);
+    if (job->ring.count > 1) {
+        printf("%u copies of the frame take turns.\n", job->ring.count);
+    } else {
+        puts("The same frame again and again: it stays in the cache.");
+    }
+    printf("%-17s %-7s %8s %16s %9s", "operator", "backend", "ns/px", "quartiles", "x memcpy");
     if (job->peer.process) {
         printf(" %8s %16s %8s", "OpenCV", "quartiles", "faster");
     }
@@ -472,7 +478,7 @@ static int start_opencv(struct job *job)
 static int compare_all(struct job *job)
 {
     for (unsigned p = 0; p < job->picture_count; p++) {
-        if (benchpeer_picture(&job->peer, &job->pictures[p])) {
+        if (benchpeer_picture(&job->peer, &job->pictures[p], 1)) {
             return -1;
         }
         for (unsigned i = 0; i < job->op_count; i++) {
@@ -487,14 +493,14 @@ static int compare_all(struct job *job)
     return 0;
 }
 
-static int time_op(struct job *job, const bench_op *op, const bench_picture *picture)
+static int time_op(struct job *job, const bench_op *op)
 {
     const bench_backends some = benchmeasure_backends(op, &job->backends);
     bench_figure *figures = job->figures + job->figure_count;
     if (some.count == 0) {
         return 0;
     }
-    if (benchmeasure_time(op, picture, &some, &job->peer, (unsigned)job->runs, figures)) {
+    if (benchmeasure_time(op, &job->ring, &some, &job->peer, (unsigned)job->runs, figures)) {
         return -1;
     }
     hide_progress();
@@ -509,6 +515,28 @@ static int time_op(struct job *job, const bench_op *op, const bench_picture *pic
     return report_close(stdout, "-"); /* flushed, so that a reader sees each at once */
 }
 
+/* Makes the ring of a picture here and in OpenCV's process, and times all operators on it. */
+static int time_picture(struct job *job, const bench_picture *picture)
+{
+    const unsigned frames = benchring_count(picture, (unsigned)job->frames);
+    if (frames < job->frames) {
+        say_error("bench", "%s: %u frames take turns, more would take over %d MiB", picture->name,
+                  frames, BENCH_RING_MIB);
+    }
+    if (benchring_make(&job->ring, picture, frames) ||
+        benchpeer_picture(&job->peer, picture, frames)) {
+        return -1;
+    }
+    print_heading(job);
+    for (unsigned i = 0; i < job->op_count; i++) {
+        show_progress(job, "timing", job->ops[i], picture);
+        if (time_op(job, job->ops[i])) {
+            return -1;
+        }
+    }
+    return 0;
+}
+
 static int time_all(struct job *job)
 {
     const size_t most = (size_t)job->picture_count * job->op_count * job->backends.count;
@@ -520,15 +548,10 @@ static int time_all(struct job *job)
         fputs(csv_header, stdout);
     }
     for (unsigned p = 0; p < job->picture_count; p++) {
-        if (benchpeer_picture(&job->peer, &job->pictures[p])) {
+        const int failed = time_picture(job, &job->pictures[p]);
+        benchring_free(&job->ring);
+        if (failed) {
             return -1;
-        }
-        print_heading(job, &job->pictures[p]);
-        for (unsigned i = 0; i < job->op_count; i++) {
-            show_progress(job, "timing", job->ops[i], &job->pictures[p]);
-            if (time_op(job, job->ops[i], &job->pictures[p])) {
-                return -1;
-            }
         }
     }
     print_end(job);
@@ -549,6 +572,7 @@ static int run(int argc, char **argv)
 {
     static struct job job;
     job.runs = RUNS;
+    job.frames = FRAMES;
     const int status = parse(argc, argv, &job);
     if (status >= 0) {
         return status;

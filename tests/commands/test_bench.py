@@ -31,7 +31,7 @@ def listed(kind):
 def table(*words, **options):
     rows = list(csv.DictReader(io.StringIO(ok("bench", "--csv", *words, **options).text)))
     true(rows, "no rows")
-    equal(list(rows[0])[:7], FIRST_COLUMNS)
+    equal((list(rows[0])[:7], list(rows[0])[-1]), (FIRST_COLUMNS, "frames"))
     return rows
 
 
@@ -68,7 +68,7 @@ def test_every_operator_backend_and_input():
     equal([(row["operator"], row["backend"], row["input"]) for row in rows], wanted)
     for row in rows:
         check_figures(row)
-        equal((row["width"], row["height"], row["runs"]), ("32", "24", "2"))
+        equal((row["width"], row["height"], row["runs"], row["frames"]), ("32", "24", "2", "16"))
         equal(row["compared"], "" if row["backend"] in ("scalar", "auto") else "scalar")
 
 
@@ -104,6 +104,31 @@ def test_files():
     refused(1, ["none.pgm"], "bench", "none.pgm")
 
 
+def test_frames_take_turns():
+    one = ALONE + ("--operator", "absdiff", "--backend", "scalar", "--input", "synth")
+    for frames, line in ((1, "The same frame again and again: it stays in the cache."),
+                         (2, "2 copies of the frame take turns."),
+                         (64, "64 copies of the frame take turns.")):
+        row, = table(*one, "--frames", frames)
+        check_figures(row)
+        equal(row["frames"], str(frames))
+        true(line in ok("bench", *one, "--frames", frames).text.splitlines(), line)
+    true("16 copies of the frame take turns." in ok("bench", *one).text.splitlines())
+
+
+def test_frames_have_a_limit():
+    """A picture is kept as YUYV, gray, RGB, labels and gray again: 8 bytes a pixel."""
+    raw = write("large.yuv", b"\x80" * (2 << 20))
+    words = ("bench", "--csv", "--no-opencv", "--runs", 1, "--operator", "runs", "--input", "none",
+             "--raw", "YUYV", "1024x1024", raw)
+    row, = csv.DictReader(io.StringIO(ok(*words, "--frames", 32).text))
+    equal(row["frames"], "32")
+    done = pel(*words, "--frames", 33)
+    row, = csv.DictReader(io.StringIO(done.text))
+    equal((done.status, row["frames"]), (0, "32"))
+    equal(done.err, "pel: bench: large: 32 frames take turns, more would take over 256 MiB\n")
+
+
 def test_the_table_of_the_readme():
     rows = table(*ALONE, "--input", "synth,rand4")
     with open("bench.csv", "w", newline="") as file:
@@ -122,6 +147,7 @@ def test_the_table_of_the_readme():
     line, = (line for line in lines if line.startswith("| 3x3 median, synth | "))
     equal(line.split(" | ")[1], "%.3f" % float(median["ns_per_px"]))
     true(any("to blobs, rand4" in line for line in lines) and "old" not in lines, lines)
+    true(lines[-3].startswith("Medians of 2 runs, 32x24, 16 copies of the frame in turn, "), lines)
 
 
 # ---- For people --------------------------------------------------------------------------------
@@ -177,6 +203,25 @@ def test_another_result_is_seen():
         done = refused(1, [name + " of ", "OpenCV's result"], "bench", "--csv", *SMALL, "--python",
                        "./python")
         equal(done.out, b"")
+
+
+def test_frames_take_turns_in_opencv():
+    """A Python that writes down which frame each run reads: the four of the picture in turn."""
+    if not HAS_OPENCV:
+        return
+    run = "            run(frame)\n"
+    place = run.replace("run(frame)", "print(id(frame), frame.gray.ctypes.data)")
+    write("python", "#!%s\nimport sys\nscript = sys.argv[2]\nassert %r in script\n"
+          "exec(compile(script.replace(%r, %r), 'script', 'exec'))\n"
+          % (sys.executable, run, run, run + place))
+    os.chmod("python", 0o755)
+    done = pel("bench", "--csv", "--size", "32x24", "--runs", 10, "--operator", "median", "--input",
+               "synth", "--backend", "scalar", "--frames", 4, "--python", "./python")
+    equal(done.status, 0, done.err)
+    read = done.err.splitlines()
+    true(len(read) >= 12 and len(set(read[:4])) == 4, read[:8])
+    equal(len({line.split()[1] for line in read}), 4, "places of the frames")
+    equal(read, [read[i % 4] for i in range(len(read))])
 
 
 def test_without_opencv():
@@ -239,6 +284,8 @@ def test_bench_refuses():
     refused(2, ["input 'sinth'", " synth "], "bench", "--input", "sinth")
     refused(2, ["operator ''"], "bench", "--operator", "median,")
     refused(2, ["--runs", "'0'"], "bench", "--runs", "0")
+    for frames in ("0", "65", "-1", "many", ""):
+        refused(2, ["--frames", "1 to 64", "'%s'" % frames], "bench", "--frames", frames)
     refused(2, ["even", "'33x24'"], "bench", "--size", "33x24")
     refused(2, ["'2x24'"], "bench", "--size", "2x24")
     refused(2, [".png", "'out.jpg'"], "bench", "--plot", "out.jpg")
