@@ -8,17 +8,19 @@
 
 /*
  * Its sums grow to the bounds that pel_blobs_begin enforces: area <= 2^22, sum_x, sum_y < 2^32.
+ * No two of them lie side by side: compilers would add to both at once, which takes them longer.
  *
  * One comparison of `root` tells whether a run of a label may be added to the slot that a run above
  * names: see pel_i_of_label.
  */
 struct pel_blob_slot {
     uint32_t root; /* the parent, itself for a root; label << 16; BROKEN if a run was lost */
-    uint32_t area; /* in the free and in the united list: the next slot */
-    uint32_t sum_x, sum_y;
+    uint32_t sum_x;
     pel_run box;     /* x0 and x1 of the box */
+    uint32_t area;   /* in the free and in the united list: the next slot */
     uint16_t y0;     /* of the box */
     uint16_t newest; /* its newest run, see pel_i_run_name; in the list of ended blobs: the next */
+    uint32_t sum_y;
 };
 
 #define BROKEN ((uint32_t)1 << 24)
@@ -32,6 +34,14 @@ struct pel_blob_slot {
  */
 
 typedef struct pel_blob_slot slot;
+
+/* Whether the processor runs so far ahead that a jump which it guesses wrong costs it more than a
+ * few instructions. */
+#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__OPTIMIZE_SIZE__)
+enum { RUNS_AHEAD = 1 };
+#else
+enum { RUNS_AHEAD = 0 };
+#endif
 
 /* Instead of a slot, a run's blob may be NO_BLOB (none yet; also behind the last run of a row), or
  * LOST + its label - 1. */

@@ -152,11 +152,11 @@ static inline void add_run(const pel_blobs *b, slot *t, unsigned x0, unsigned x1
     t->area = area + n;
     t->sum_x = sum_x + sum_of_x(x0, x1);
     t->sum_y = sum_y + n * b->next_row;
-    if (x0 < t->box.x0) {
-        t->box.x0 = (uint16_t)x0;
+    if (RUNS_AHEAD || x0 < t->box.x0) {
+        t->box.x0 = (uint16_t)(x0 < t->box.x0 ? x0 : t->box.x0);
     }
-    if (x1 > t->box.x1) {
-        t->box.x1 = (uint16_t)x1;
+    if (RUNS_AHEAD || x1 > t->box.x1) {
+        t->box.x1 = (uint16_t)(x1 > t->box.x1 ? x1 : t->box.x1);
     }
     add_extras(b, pel_i_parent(t), (pel_run){(uint16_t)x0, (uint16_t)x1}, touched);
 }
@@ -290,16 +290,21 @@ INLINE void walk(pel_blobs *b, size_t first, const pel_run *above, const uint8_t
             pel_i_slot(slots, *id_above)->root == (of_label | *id_above)) {
             f.mine = pel_i_slot(slots, *id_above);
             f.touched = touch_extras(*next, *above);
-            more = above->x1 <= x1;
-            if (more) { /* what comes in this row has another label, or begins behind it */
-                above++;
+            if (RUNS_AHEAD) { /* the run above is passed next time, whichever of both ends first */
+                more = (int)above[1].x0 < to;
+            } else {
+                more = above->x1 <= x1;
+            }
+            if (!RUNS_AHEAD && more) {
+                above++; /* what comes in this row has another label, or begins behind it */
                 id_above++;
                 more = (int)above->x0 < to;
             }
         }
         if (more) {
+            const int seen = RUNS_AHEAD && f.mine;
             found g = f;
-            join_all(b, next, of_label, above, id_above, &g);
+            join_all(b, next, of_label, above + seen, id_above + seen, &g);
             f = g;
         }
         mine = f.mine;
