@@ -73,6 +73,7 @@ APART static int bytes_at_once(const pel_filter_config *c, const uint8_t *const 
     AT_ONCE(pel_op_gauss3, gauss3)
     AT_ONCE(pel_op_gradient_abs, gradient_abs)
     AT_ONCE(pel_op_gradient, gradient)
+    AT_ONCE(pel_op_median, median3)
     AT_ONCE(pel_op_min, min3)
     AT_ONCE(pel_op_max, max3)
     if (!c->op && c->kernel->radius == 1) {

@@ -137,6 +137,7 @@ static size_t results_at_once(const equal_run *run)
 AT_ONCE_BYTES(gauss3)
 AT_ONCE_BYTES(gradient_abs)
 AT_ONCE_BYTES(gradient)
+AT_ONCE_BYTES(median3)
 AT_ONCE_BYTES(min3)
 AT_ONCE_BYTES(max3)
 AT_ONCE_WORDS(sobel_x)
@@ -304,6 +305,7 @@ const equal_kernel equal_filter_kernels[] = {{"gauss3", gauss3, 0},
                                              {"sobel y, rows", sobel_y_rows, 0},
                                              {"gradient abs, rows", gradient_abs_rows, 0},
                                              {"gradient, rows", gradient_rows, 0},
+                                             {"median3, rows", median3_rows, 0},
                                              {"min3, rows", min3_rows, 0},
                                              {"max3, rows", max3_rows, 0},
                                              {"kernel3, rows", kernel3_rows, 0},

@@ -46,6 +46,24 @@ INLINE void store_words(int16_t *out, words results)
     store_half(out + 24, _mm256_extracti128_si256(results.high, 1));
 }
 
+typedef struct pair {
+    vec low, high;
+} pair;
+
+INLINE pair ordered(vec a, vec b)
+{
+    const pair p = {_mm256_min_epu8(a, b), _mm256_max_epu8(a, b)};
+    return p;
+}
+
+/* The larger one is what the smaller one leaves of both. */
+INLINE pair ordered_too(vec a, vec b)
+{
+    const vec low = _mm256_min_epu8(a, b);
+    const pair p = {low, _mm256_xor_si256(_mm256_xor_si256(a, b), low)};
+    return p;
+}
+
 #include "row/row_filter_template.h"
 #include "row/row_filter_taps_template.h"
 #include "row/row_filter_rows_template.h"

@@ -39,6 +39,31 @@ INLINE void store_words(int16_t *out, words results)
     _mm512_storeu_si512(out + 32, _mm512_permutex2var_epi64(results.low, second, results.high));
 }
 
+typedef struct pair {
+    vec low, high;
+} pair;
+
+/* Both, and `one` of them: the other one. */
+INLINE vec other_than(vec one, vec a, vec b)
+{
+    return _mm512_ternarylogic_epi32(one, a, b, 0x96);
+}
+
+/* One unit only knows the smaller and the larger one; comparing into a mask is up to another. */
+INLINE pair ordered(vec a, vec b)
+{
+    const vec low = _mm512_min_epu8(a, b);
+    const pair p = {low, other_than(low, a, b)};
+    return p;
+}
+
+INLINE pair ordered_too(vec a, vec b)
+{
+    const vec low = _mm512_mask_blend_epi8(_mm512_cmplt_epu8_mask(a, b), b, a);
+    const pair p = {low, other_than(low, a, b)};
+    return p;
+}
+
 #include "row/row_filter_template.h"
 #include "row/row_filter_taps_template.h"
 #include "row/row_filter_rows_template.h"

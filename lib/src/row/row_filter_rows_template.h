@@ -277,6 +277,61 @@ INLINE void max3_strip(const uint8_t *const rows[], int x, int height, uint8_t *
 
 ROWS(max3, max3_strip, uint8_t)
 
+/*
+ * Median: as in plain C, of rows in order instead of columns, the middle of the largest low one,
+ * the middle of the middle ones and the smallest high one. What two rows give to the result above
+ * and to the one below is the same.
+ */
+typedef struct shared_ranks {
+    vec low, high;
+    pair middle;
+} shared_ranks;
+
+INLINE ranks ranks_of_row(const uint8_t *p)
+{
+    const vec here = load_once(p);
+    const pair sides = ordered_too(load_once(p - 1), load_once(p + 1));
+    const pair lower = ordered(sides.low, here), upper = ordered(lower.high, sides.high);
+    const ranks order = {lower.low, upper.low, upper.high};
+    return order;
+}
+
+INLINE shared_ranks shared_ranks_of(ranks a, ranks b)
+{
+    const shared_ranks both = {larger(a.low, b.low), smaller(a.high, b.high),
+                               ordered(a.middle, b.middle)};
+    return both;
+}
+
+INLINE vec median_with(shared_ranks both, ranks third)
+{
+    const vec middle = larger(both.middle.low, smaller(both.middle.high, third.middle));
+    const pair ends = ordered_too(larger(both.low, third.low), smaller(both.high, third.high));
+    return larger(ends.low, smaller(ends.high, middle));
+}
+
+INLINE void median3_strip(const uint8_t *const rows[], int x, int height, uint8_t *out,
+                          ptrdiff_t stride)
+{
+    ranks above = ranks_of_row(rows[0] + x), here = ranks_of_row(rows[1] + x);
+    int y = 0;
+
+    for (; y < height - 1; y += 2, out += 2 * stride) {
+        const ranks next = ranks_of_row(rows[y + 2] + x), last = ranks_of_row(rows[y + 3] + x);
+        const shared_ranks both = shared_ranks_of(here, next);
+        store(out, median_with(both, above));
+        store(out + stride, median_with(both, last));
+        above = next;
+        here = last;
+    }
+    if (y < height) {
+        const ranks next = ranks_of_row(rows[y + 2] + x);
+        store(out, median_with(shared_ranks_of(here, next), above));
+    }
+}
+
+ROWS(median3, median3_strip, uint8_t)
+
 /* ---- Taps of one's own --------------------------------------------------------------------- */
 
 INLINE void kernel3_strip(const uint8_t *const rows[], int height, const narrow3 *all, int x,

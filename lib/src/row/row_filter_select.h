@@ -83,6 +83,7 @@ PEL_ROW_SELECT_ROWS(sobel_x, int16_t)
 PEL_ROW_SELECT_ROWS(sobel_y, int16_t)
 PEL_ROW_SELECT_ROWS(gradient_abs, uint8_t)
 PEL_ROW_SELECT_ROWS(gradient, uint8_t)
+PEL_ROW_SELECT_ROWS(median3, uint8_t)
 PEL_ROW_SELECT_ROWS(min3, uint8_t)
 PEL_ROW_SELECT_ROWS(max3, uint8_t)
 

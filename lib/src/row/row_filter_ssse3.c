@@ -41,6 +41,21 @@ INLINE void store_words(int16_t *out, words results)
     store_half(out + 8, results.high);
 }
 
+typedef struct pair {
+    vec low, high;
+} pair;
+
+INLINE pair ordered(vec a, vec b)
+{
+    const pair p = {_mm_min_epu8(a, b), _mm_max_epu8(a, b)};
+    return p;
+}
+
+INLINE pair ordered_too(vec a, vec b)
+{
+    return ordered(a, b);
+}
+
 /* 32 bits as 16 without a sign, limited to them; a and b are not negative. */
 INLINE vec packed(vec a, vec b)
 {

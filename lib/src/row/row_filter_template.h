@@ -8,6 +8,8 @@
  *     EQUAL(a, b)              bytes that are equal become 255, others 0
  *     RECIPROCAL(a), RECIPROCAL_ROOT(a)    in single precision, nearly
  *     PACKED(a, b)             32 bits limited to 16 without a sign
+ *     pair, ordered, ordered_too    the smaller bytes of two vectors and the larger ones, in two
+ *                              ways: together they keep more units busy than either does
  *     words, store_words       results of 16 bits, as unpacking bytes leaves them
  *     ISA, INLINE, KERNEL      for what a function is compiled, what it is called
  *     OWN_PRODUCTS             defined: the file brings what is made of products, because its
@@ -411,21 +413,20 @@ INLINE vec middle_of(vec a, vec b, vec c)
     return larger(smaller(a, b), smaller(larger(a, b), c));
 }
 
-/* The three of each column in order. */
-typedef struct sorted_columns {
+/* Three in order. */
+typedef struct ranks {
     vec low, middle, high;
-} sorted_columns;
+} ranks;
 
-INLINE sorted_columns sorted(vec a, vec b, vec c)
+INLINE ranks sorted(vec a, vec b, vec c)
 {
     const vec low = smaller(a, b), high = larger(a, b);
-    const sorted_columns columns = {smaller(low, c), larger(low, smaller(high, c)),
-                                    larger(high, c)};
-    return columns;
+    const ranks order = {smaller(low, c), larger(low, smaller(high, c)), larger(high, c)};
+    return order;
 }
 
-/* As in plain C. */
-INLINE vec median_of(sorted_columns last, sorted_columns here)
+/* Of columns in order, as in plain C. */
+INLINE vec median_of(ranks last, ranks here)
 {
     const vec low = largest(MOVED(last.low, here.low, 2), MOVED(last.low, here.low, 1), here.low);
     const vec middle = middle_of(MOVED(last.middle, here.middle, 2),
@@ -440,9 +441,9 @@ ISA void KERNEL(median3)(const uint8_t *const rows[], uint16_t count, uint8_t *o
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
 
     for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
-        sorted_columns last = sorted(two_at(a + x - 1), two_at(b + x - 1), two_at(c + x - 1));
+        ranks last = sorted(two_at(a + x - 1), two_at(b + x - 1), two_at(c + x - 1));
         for (; x < end; x += LANES) {
-            const sorted_columns here = sorted(load(a + x + 1), load(b + x + 1), load(c + x + 1));
+            const ranks here = sorted(load(a + x + 1), load(b + x + 1), load(c + x + 1));
             store(out + x, median_of(last, here));
             last = here;
         }

@@ -33,6 +33,7 @@ typedef struct pel_row_taps {
     PEL_ROW_ROWS(sobel_y, isa, int16_t);                                                           \
     PEL_ROW_ROWS(gradient_abs, isa, uint8_t);                                                      \
     PEL_ROW_ROWS(gradient, isa, uint8_t);                                                          \
+    PEL_ROW_ROWS(median3, isa, uint8_t);                                                           \
     PEL_ROW_ROWS(min3, isa, uint8_t);                                                              \
     PEL_ROW_ROWS(max3, isa, uint8_t);                                                              \
     void pel_row_kernel3_rows_##isa(const uint8_t *const rows[], const pel_row_taps *taps,         \
