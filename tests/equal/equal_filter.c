@@ -97,29 +97,42 @@ WORDS(gradient_s16)
 /* ---- Rows at once -------------------------------------------------------------------------- */
 
 #if defined(PEL_ROW_FILTER_X86)
-/* As many as the rows of a run give, side by side or, turned, from below to above with a gap. */
-enum { AT_ONCE = EQUAL_PLANES - 2, GAP = 3 };
+/* Bytes: one row of results and up to as many as there is room for, side by side or, turned, from
+ * below to above with a gap; what they are made of are the rows of a run, again and again. Others:
+ * as many as the rows of a run give. */
+enum { AT_ONCE_MAX = 6, AT_ONCE = EQUAL_PLANES - 2, GAP = 3 };
 
-static size_t results_at_once(const equal_run *run)
+static unsigned height_of(const equal_run *run)
 {
-    return (size_t)AT_ONCE * (run->width + (size_t)GAP);
+    return 1 + run->seed / 2 % AT_ONCE_MAX;
+}
+
+static size_t results_at_once(const equal_run *run, unsigned height)
+{
+    return (size_t)height * (run->width + (size_t)GAP);
 }
 
 #define AT_ONCE_BYTES(name)                                                                        \
     static size_t name##_rows(pel_backend backend, const equal_run *run)                           \
     {                                                                                              \
         const ptrdiff_t stride = run->seed % 2 == 0 ? run->width : -(ptrdiff_t)run->width - GAP;   \
+        const unsigned height = height_of(run);                                                    \
+        const uint8_t *rows[AT_ONCE_MAX + 2];                                                      \
         window w = window_of(run, 1);                                                              \
-        memset(run->out, 1, results_at_once(run));                                                 \
-        pel_i_row_##name##_rows(backend, w.rows, run->width, AT_ONCE,                              \
-                                run->out + (stride < 0 ? (1 - AT_ONCE) * stride : 0), stride);     \
+        for (unsigned i = 0; i < height + 2; i++) {                                                \
+            rows[i] = w.rows[i % EQUAL_PLANES];                                                    \
+        }                                                                                          \
+        memset(run->out, 1, results_at_once(run, height));                                         \
+        pel_i_row_##name##_rows(backend, rows, run->width, (uint16_t)height,                       \
+                                run->out + (stride < 0 ? (1 - (ptrdiff_t)height) * stride : 0),    \
+                                stride);                                                           \
         drop(&w);                                                                                  \
-        return results_at_once(run);                                                               \
+        return results_at_once(run, height);                                                       \
     }
 #define AT_ONCE_WORDS(name)                                                                        \
     static size_t name##_rows(pel_backend backend, const equal_run *run)                           \
     {                                                                                              \
-        const size_t bytes = 2 * results_at_once(run);                                             \
+        const size_t bytes = 2 * results_at_once(run, AT_ONCE);                                    \
         int16_t *const words = malloc(bytes);                                                      \
         window w = window_of(run, 1);                                                              \
         if (!words) {                                                                              \

@@ -16,6 +16,9 @@
 #define RECIPROCAL(a) _mm256_rcp_ps(a)
 #define RECIPROCAL_ROOT(a) _mm256_rsqrt_ps(a)
 #define PACKED(a, b) _mm256_packus_epi32(a, b)
+#define XOR3(a, b, c) _mm256_xor_si256(_mm256_xor_si256(a, b), c)
+#define MIN_ELSEWHERE(a, b) _mm256_min_epu8(a, b)
+#define OTHER(a, b, min) _mm256_max_epu8(a, b)
 
 enum { LANES = PEL_ROW_LANES_AVX2 };
 typedef __m256i vec;
@@ -44,24 +47,6 @@ INLINE void store_words(int16_t *out, words results)
     store_half(out + 8, _mm256_castsi256_si128(results.high));
     store_half(out + 16, _mm256_extracti128_si256(results.low, 1));
     store_half(out + 24, _mm256_extracti128_si256(results.high, 1));
-}
-
-typedef struct pair {
-    vec low, high;
-} pair;
-
-INLINE pair ordered(vec a, vec b)
-{
-    const pair p = {_mm256_min_epu8(a, b), _mm256_max_epu8(a, b)};
-    return p;
-}
-
-/* The larger one is what the smaller one leaves of both. */
-INLINE pair ordered_too(vec a, vec b)
-{
-    const vec low = _mm256_min_epu8(a, b);
-    const pair p = {low, _mm256_xor_si256(_mm256_xor_si256(a, b), low)};
-    return p;
 }
 
 #include "row/row_filter_template.h"

@@ -15,6 +15,9 @@
 #define RECIPROCAL(a) _mm512_rcp14_ps(a)
 #define RECIPROCAL_ROOT(a) _mm512_rsqrt14_ps(a)
 #define PACKED(a, b) _mm512_packus_epi32(a, b)
+#define XOR3(a, b, c) _mm512_ternarylogic_epi32(a, b, c, 0x96)
+#define MIN_ELSEWHERE(a, b) _mm512_mask_blend_epi8(_mm512_cmplt_epu8_mask(a, b), b, a)
+#define OTHER(a, b, min) XOR3(a, b, min)
 
 enum { LANES = PEL_ROW_LANES_AVX512 };
 typedef __m512i vec;
@@ -37,31 +40,6 @@ INLINE void store_words(int16_t *out, words results)
     const vec second = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
     _mm512_storeu_si512(out, _mm512_permutex2var_epi64(results.low, first, results.high));
     _mm512_storeu_si512(out + 32, _mm512_permutex2var_epi64(results.low, second, results.high));
-}
-
-typedef struct pair {
-    vec low, high;
-} pair;
-
-/* Both, and `one` of them: the other one. */
-INLINE vec other_than(vec one, vec a, vec b)
-{
-    return _mm512_ternarylogic_epi32(one, a, b, 0x96);
-}
-
-/* One unit only knows the smaller and the larger one; comparing into a mask is up to another. */
-INLINE pair ordered(vec a, vec b)
-{
-    const vec low = _mm512_min_epu8(a, b);
-    const pair p = {low, other_than(low, a, b)};
-    return p;
-}
-
-INLINE pair ordered_too(vec a, vec b)
-{
-    const vec low = _mm512_mask_blend_epi8(_mm512_cmplt_epu8_mask(a, b), b, a);
-    const pair p = {low, other_than(low, a, b)};
-    return p;
 }
 
 #include "row/row_filter_template.h"

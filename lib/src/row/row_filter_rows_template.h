@@ -281,35 +281,41 @@ ROWS(max3, max3_strip, uint8_t)
  * Median: as in plain C, of rows in order instead of columns, the middle of the largest low one,
  * the middle of the middle ones and the smallest high one. What two rows give to the result above
  * and to the one below is the same.
+ *
+ * Few units compare, and they are what takes longest. The last one of two or three when the others
+ * are known is what these leave of all, which is logic: for units that are idle otherwise.
  */
 typedef struct shared_ranks {
-    vec low, high;
-    pair middle;
+    vec low, high;    /* the larger low one of two rows, the smaller high one */
+    vec lower, upper; /* the middle ones */
 } shared_ranks;
 
 INLINE ranks ranks_of_row(const uint8_t *p)
 {
-    const vec here = load_once(p);
-    const pair sides = ordered_too(load_once(p - 1), load_once(p + 1));
-    const pair lower = ordered(sides.low, here), upper = ordered(lower.high, sides.high);
-    const ranks order = {lower.low, upper.low, upper.high};
+    const vec left = load_once(p - 1), here = load_once(p), right = load_once(p + 1);
+    const vec lower = MIN_ELSEWHERE(left, right), upper = XOR3(left, right, lower);
+    const vec low = smaller(lower, here), high = larger(upper, here);
+    const ranks order = {low, XOR3(XOR3(left, right, here), low, high), high};
     return order;
 }
 
 INLINE shared_ranks shared_ranks_of(ranks a, ranks b)
 {
-    const shared_ranks both = {larger(a.low, b.low), smaller(a.high, b.high),
-                               ordered(a.middle, b.middle)};
+    const vec lower = smaller(a.middle, b.middle);
+    const shared_ranks both = {larger(a.low, b.low), smaller(a.high, b.high), lower,
+                               OTHER(a.middle, b.middle, lower)};
     return both;
 }
 
 INLINE vec median_with(shared_ranks both, ranks third)
 {
-    const vec middle = larger(both.middle.low, smaller(both.middle.high, third.middle));
-    const pair ends = ordered_too(larger(both.low, third.low), smaller(both.high, third.high));
-    return larger(ends.low, smaller(ends.high, middle));
+    const vec low = larger(both.low, third.low), high = smaller(both.high, third.high);
+    const vec middle = larger(both.lower, smaller(both.upper, third.middle));
+    const vec lower = MIN_ELSEWHERE(low, high), upper = OTHER(low, high, lower);
+    return larger(lower, smaller(upper, middle));
 }
 
+/* The upper result is stored before the fourth row is read: registers are few. */
 INLINE void median3_strip(const uint8_t *const rows[], int x, int height, uint8_t *out,
                           ptrdiff_t stride)
 {
@@ -317,12 +323,12 @@ INLINE void median3_strip(const uint8_t *const rows[], int x, int height, uint8_
     int y = 0;
 
     for (; y < height - 1; y += 2, out += 2 * stride) {
-        const ranks next = ranks_of_row(rows[y + 2] + x), last = ranks_of_row(rows[y + 3] + x);
+        const ranks next = ranks_of_row(rows[y + 2] + x);
         const shared_ranks both = shared_ranks_of(here, next);
         store(out, median_with(both, above));
-        store(out + stride, median_with(both, last));
         above = next;
-        here = last;
+        here = ranks_of_row(rows[y + 3] + x);
+        store(out + stride, median_with(both, here));
     }
     if (y < height) {
         const ranks next = ranks_of_row(rows[y + 2] + x);

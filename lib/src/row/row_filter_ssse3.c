@@ -15,6 +15,9 @@
 #define RECIPROCAL(a) _mm_rcp_ps(a)
 #define RECIPROCAL_ROOT(a) _mm_rsqrt_ps(a)
 #define PACKED(a, b) packed(a, b)
+#define XOR3(a, b, c) _mm_xor_si128(_mm_xor_si128(a, b), c)
+#define MIN_ELSEWHERE(a, b) _mm_min_epu8(a, b)
+#define OTHER(a, b, min) _mm_max_epu8(a, b)
 
 enum { LANES = PEL_ROW_LANES_SSSE3 };
 typedef __m128i vec;
@@ -39,21 +42,6 @@ INLINE void store_words(int16_t *out, words results)
 {
     store_half(out, results.low);
     store_half(out + 8, results.high);
-}
-
-typedef struct pair {
-    vec low, high;
-} pair;
-
-INLINE pair ordered(vec a, vec b)
-{
-    const pair p = {_mm_min_epu8(a, b), _mm_max_epu8(a, b)};
-    return p;
-}
-
-INLINE pair ordered_too(vec a, vec b)
-{
-    return ordered(a, b);
 }
 
 /* 32 bits as 16 without a sign, limited to them; a and b are not negative. */

@@ -8,8 +8,9 @@
  *     EQUAL(a, b)              bytes that are equal become 255, others 0
  *     RECIPROCAL(a), RECIPROCAL_ROOT(a)    in single precision, nearly
  *     PACKED(a, b)             32 bits limited to 16 without a sign
- *     pair, ordered, ordered_too    the smaller bytes of two vectors and the larger ones, in two
- *                              ways: together they keep more units busy than either does
+ *     XOR3(a, b, c)            bits that one of them has, or all three
+ *     MIN_ELSEWHERE(a, b)      the smaller bytes, by other units than smaller() if there are any
+ *     OTHER(a, b, min)         the larger ones, where those are known
  *     words, store_words       results of 16 bits, as unpacking bytes leaves them
  *     ISA, INLINE, KERNEL      for what a function is compiled, what it is called
  *     OWN_PRODUCTS             defined: the file brings what is made of products, because its
