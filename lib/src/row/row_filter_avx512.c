@@ -15,6 +15,9 @@
 #define RECIPROCAL(a) _mm512_rcp14_ps(a)
 #define RECIPROCAL_ROOT(a) _mm512_rsqrt14_ps(a)
 #define PACKED(a, b) _mm512_packus_epi32(a, b)
+#define UPPER_BYTES(even, odd)                                                                     \
+    _mm512_mask_shuffle_epi8(odd, 0x5555555555555555, even,                                        \
+                             everywhere(_mm_set_epi64x(0x0f0f0d0d0b0b0909, 0x0707050503030101)))
 #define XOR3(a, b, c) _mm512_ternarylogic_epi32(a, b, c, 0x96)
 #define MIN_ELSEWHERE(a, b) _mm512_mask_blend_epi8(_mm512_cmplt_epu8_mask(a, b), b, a)
 #define OTHER(a, b, min) XOR3(a, b, min)

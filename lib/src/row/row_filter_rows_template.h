@@ -57,14 +57,13 @@ INLINE parities gauss_row(const uint8_t *p)
 INLINE void gauss3_strip(const uint8_t *const rows[], int x, int height, uint8_t *out,
                          ptrdiff_t stride)
 {
-    const vec upper = V(set1_epi16)((int16_t)0xff00);
     parities here = gauss_row(rows[1] + x);
     parities above = sum_of_parities(gauss_row(rows[0] + x), here);
 
     for (int y = 0; y < height; y++, out += stride) {
         const parities next = gauss_row(rows[y + 2] + x), below = sum_of_parities(here, next);
         const parities sums = sum_of_parities(above, below);
-        store(out, BITS(or)(V(srli_epi16)(sums.even, 8), BITS(and)(sums.odd, upper)));
+        store(out, UPPER_BYTES(sums.even, sums.odd));
         here = next;
         above = below;
     }

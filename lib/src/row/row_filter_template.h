@@ -8,6 +8,7 @@
  *     EQUAL(a, b)              bytes that are equal become 255, others 0
  *     RECIPROCAL(a), RECIPROCAL_ROOT(a)    in single precision, nearly
  *     PACKED(a, b)             32 bits limited to 16 without a sign
+ *     UPPER_BYTES(even, odd)   of 16 bits each, those of even between those of odd
  *     XOR3(a, b, c)            bits that one of them has, or all three
  *     MIN_ELSEWHERE(a, b)      the smaller bytes, by other units than smaller() if there are any
  *     OTHER(a, b, min)         the larger ones, where those are known
@@ -116,6 +117,11 @@ INLINE vec interleaved(vec even, vec odd)
     return BITS(or)(even, V(slli_epi16)(odd, 8));
 }
 
+#if !defined(UPPER_BYTES)
+#define UPPER_BYTES(even, odd)                                                                     \
+    BITS(or)(V(srli_epi16)(even, 8), BITS(and)(odd, V(set1_epi16)((int16_t)0xff00)))
+#endif
+
 /* The two columns at p all over. */
 INLINE vec two_at(const uint8_t *p)
 {
@@ -151,7 +157,7 @@ INLINE vec gauss_pairs(vec a, vec b, vec c)
 ISA void KERNEL(gauss3)(const uint8_t *const rows[], uint16_t count, uint8_t *out)
 {
     const uint8_t *const a = rows[0], *const b = rows[1], *const c = rows[2];
-    const vec half = V(set1_epi16)(128), upper = V(set1_epi16)((int16_t)0xff00);
+    const vec half = V(set1_epi16)(128);
 
     for (int x = 0, end = whole(count); end != 0; x = count - LANES, end = behind(end, count)) {
         vec last = gauss_pairs(two_at(a + x - 1), two_at(b + x - 1), two_at(c + x - 1));
@@ -161,7 +167,7 @@ ISA void KERNEL(gauss3)(const uint8_t *const rows[], uint16_t count, uint8_t *ou
                 V(add_epi16)(gauss_pairs(load(a + x), load(b + x), load(c + x)), half);
             const vec even = V(add_epi16)(MOVED(last, here, 2), middle);
             const vec odd = V(add_epi16)(middle, here);
-            store(out + x, BITS(or)(V(srli_epi16)(even, 8), BITS(and)(odd, upper)));
+            store(out + x, UPPER_BYTES(even, odd));
             last = here;
         }
     }
