@@ -53,19 +53,31 @@ INLINE parities gauss_row(const uint8_t *p)
     return sums;
 }
 
-/* Sums are 65408 at most: 16 bits without a sign, the result in the upper 8. */
+/* Of two rows and of the two below them; sums are 65408 at most: 16 bits without a sign, the result
+ * in the upper 8. */
+INLINE vec gauss_of(parities above, parities below)
+{
+    const parities sums = sum_of_parities(above, below);
+    return UPPER_BYTES(sums.even, sums.odd);
+}
+
+/* By twos: what the next rows need is then where it was. */
 INLINE void gauss3_strip(const uint8_t *const rows[], int x, int height, uint8_t *out,
                          ptrdiff_t stride)
 {
     parities here = gauss_row(rows[1] + x);
     parities above = sum_of_parities(gauss_row(rows[0] + x), here);
+    int y = 0;
 
-    for (int y = 0; y < height; y++, out += stride) {
+    for (; y < height - 1; y += 2, out += 2 * stride) {
         const parities next = gauss_row(rows[y + 2] + x), below = sum_of_parities(here, next);
-        const parities sums = sum_of_parities(above, below);
-        store(out, UPPER_BYTES(sums.even, sums.odd));
-        here = next;
-        above = below;
+        store(out, gauss_of(above, below));
+        here = gauss_row(rows[y + 3] + x);
+        above = sum_of_parities(next, here);
+        store(out + stride, gauss_of(below, above));
+    }
+    if (y < height) {
+        store(out, gauss_of(above, sum_of_parities(here, gauss_row(rows[y + 2] + x))));
     }
 }
 
