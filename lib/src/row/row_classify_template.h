@@ -115,23 +115,31 @@ INLINE uint64_t places_from(unsigned skip)
     return ~UINT64_C(0) >> (64 - BLOCK) >> skip << skip;
 }
 
-/* Behind the blocks of a row: its odd last pixel, if there is one, and its end. */
-INLINE uint16_t end_runs(run_writer writer, const uint8_t *labels, size_t done, size_t count,
-                         const uint16_t *edges)
+/* Behind the blocks of a row: its end. */
+INLINE uint16_t end_runs(run_writer writer, size_t count, const uint16_t *edges)
+{
+    *writer.edge = (uint16_t)count;
+    return (uint16_t)((size_t)(writer.edge + writer.inside - edges) / 2);
+}
+
+/* Before that, the odd last pixel of a row, at x. */
+APART run_writer add_odd_pixel(run_writer writer, const pel_row_boxes *boxes,
+                               const pel_row_pairs *src, size_t x, uint8_t *labels)
 {
     const unsigned before = writer.inside != 0 ? labels[writer.edge[-1]] : 0;
-    const unsigned last = done < count ? labels[done] : before;
+    const size_t c = x / 2 * src->c_step;
+    const pel_row_pairs pixel = {src->y + x * src->y_step, src->u + c, src->v + c, src->y_step,
+                                 src->c_step};
 
-    if (last != before) {
-        *writer.edge = (uint16_t)done;
+    pel_row_classify_pairs(boxes, &pixel, 1, labels + x);
+    if (labels[x] != before) {
+        *writer.edge = (uint16_t)x;
         writer.edge += before != 0;
-        *writer.edge = (uint16_t)done;
-        writer.edge += last != 0;
+        *writer.edge = (uint16_t)x;
+        writer.inside = labels[x] != 0;
+        writer.edge += writer.inside;
     }
-    if (last != 0) {
-        *writer.edge++ = (uint16_t)count;
-    }
-    return (uint16_t)((size_t)(writer.edge - edges) / 2);
+    return writer;
 }
 
 /* No part needs the labels before it: the first one begins with the row, and of the second one the
@@ -161,18 +169,35 @@ INLINE run_writer runs_of_part(const row *r, int is_packed, part p, uint8_t *lab
     return writer;
 }
 
-APART run_writer runs_of_packed(const uint8_t *nibbles, const pel_row_pairs *src, part p,
-                                uint8_t *labels, run_writer writer)
+INLINE uint16_t runs_of_row(const row *r, int is_packed, const pel_row_boxes *boxes, size_t count,
+                            uint8_t *labels, uint16_t *edges)
 {
-    const row r = packed_row_of(nibbles, src);
-    return runs_of_part(&r, 1, p, labels, writer);
+    const size_t even = count & ~(size_t)1;
+    run_writer writer = {edges, 0};
+
+    for (part p = first_part(even); p.end != 0; p = next_part(p, even)) {
+        writer = runs_of_part(r, is_packed, p, labels, writer);
+    }
+    if (even < count) {
+        writer = add_odd_pixel(writer, boxes, r->src, even, labels);
+    }
+    return end_runs(writer, count, edges);
 }
 
-APART run_writer runs_of_planar(const uint8_t *nibbles, const pel_row_pairs *src, part p,
-                                uint8_t *labels, run_writer writer)
+APART uint16_t runs_of_packed(const uint8_t *nibbles, const pel_row_boxes *boxes,
+                              const pel_row_pairs *src, uint16_t count, uint8_t *labels,
+                              uint16_t *edges)
+{
+    const row r = packed_row_of(nibbles, src);
+    return runs_of_row(&r, 1, boxes, count, labels, edges);
+}
+
+APART uint16_t runs_of_planar(const uint8_t *nibbles, const pel_row_boxes *boxes,
+                              const pel_row_pairs *src, uint16_t count, uint8_t *labels,
+                              uint16_t *edges)
 {
     const row r = row_of(nibbles, src);
-    return runs_of_part(&r, 0, p, labels, writer);
+    return runs_of_row(&r, 0, boxes, count, labels, edges);
 }
 
 /* count >= BLOCK */
@@ -180,23 +205,8 @@ ISA uint16_t KERNEL(classify_runs)(const uint8_t *nibbles, const pel_row_boxes *
                                    const pel_row_pairs *src, uint16_t count, uint8_t *labels,
                                    uint16_t *edges)
 {
-    const size_t even = count & ~(size_t)1;
-    run_writer writer = {edges, 0};
-
-    for (part p = first_part(even); p.end != 0; p = next_part(p, even)) {
-        if (src->y_step == 2) {
-            writer = runs_of_packed(nibbles, src, p, labels, writer);
-        } else {
-            writer = runs_of_planar(nibbles, src, p, labels, writer);
-        }
-    }
-    if (even < count) {
-        const size_t c = even / 2 * src->c_step;
-        const pel_row_pairs last = {src->y + even * src->y_step, src->u + c, src->v + c,
-                                    src->y_step, src->c_step};
-        pel_row_classify_pairs(boxes, &last, 1, labels + even);
-    }
-    return end_runs(writer, labels, even, count, edges);
+    return src->y_step == 2 ? runs_of_packed(nibbles, boxes, src, count, labels, edges)
+                            : runs_of_planar(nibbles, boxes, src, count, labels, edges);
 }
 
 /* count >= BLOCK */
@@ -215,5 +225,5 @@ ISA uint16_t KERNEL(find_runs)(const uint8_t *labels, uint16_t count, uint16_t *
             last = last_of(here);
         }
     }
-    return end_runs(writer, labels, count, count, edges);
+    return end_runs(writer, count, edges);
 }
