@@ -216,6 +216,57 @@ PEL_I_APART static pel_status check_frame(const pel_blobs *b, const pel_blobs_co
                : PEL_OK;
 }
 
+/* The rows of a frame of any kind. */
+static inline pel_status add_rows(pel_blobs *b, const pel_classifier *classifier,
+                                  const pel_cview *view, uint8_t *labels)
+{
+    pel_status status = PEL_OK;
+
+    for (uint16_t y = 0; status >= 0 && y < b->config.height; y++) {
+        pel_crow row = pel_cview_row(view, y);
+        status = pel_i_blobs_join(b, find_runs(b, classifier, &row, labels), labels, &row);
+    }
+    return status;
+}
+
+#if !defined(__OPTIMIZE_SIZE__)
+/* Packed YCbCr for boxes, what most cameras send: all that its rows have in common is found out
+ * once. */
+static int is_packed(const pel_classifier *classifier, const pel_cview *view)
+{
+    const pel_format_info *const info = pel_i_format(view->format);
+
+    return classifier->boxes && !classifier->relabel && info->layout == PEL_LAYOUT_PAIRS &&
+           info->pair_bytes == 4;
+}
+
+PEL_I_APART static pel_status add_packed_rows(pel_blobs *b, const pel_classifier *classifier,
+                                              const pel_cview *view, uint8_t *labels)
+{
+    const pel_classify_plan *const plan = classifier->plan;
+    const pel_backend backend = plan ? plan->backend : PEL_ROW_BUILT_IN;
+    const uint8_t *const nibbles = plan ? plan->nibbles : NULL;
+    const pel_row_boxes boxes = pel_i_row_boxes(classifier);
+    const uint16_t width = b->config.width, height = b->config.height;
+    pel_crow row = pel_cview_row(view, 0);
+    pel_row_pairs pairs = pel_i_packed_pairs(pel_i_format_of(&row), row.plane[0]);
+    pel_status status = PEL_OK;
+
+    for (uint16_t y = 0; status >= 0 && y < height; y++) {
+        const ptrdiff_t step = y > 0 ? view->stride_bytes[0] : 0;
+        uint16_t count;
+        row.plane[0] += step;
+        pairs.y += step;
+        pairs.u += step;
+        pairs.v += step;
+        count = pel_i_row_classify_runs(backend, nibbles, &boxes, &pairs, width, labels,
+                                        pel_i_blobs_edges(b));
+        status = pel_i_blobs_join(b, count, labels, &row);
+    }
+    return status;
+}
+#endif
+
 pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
                            const pel_classifier *classifier, const pel_cview *view, uint8_t *labels,
                            uint32_t *count)
@@ -225,9 +276,14 @@ pel_status pel_blobs_frame(pel_blobs *b, const pel_blobs_config *config,
     if (status == PEL_OK) {
         status = pel_blobs_begin(b, config);
     }
-    for (uint16_t y = 0; status >= 0 && y < config->height; y++) {
-        pel_crow row = pel_cview_row(view, y);
-        status = pel_i_blobs_join(b, find_runs(b, classifier, &row, labels), labels, &row);
+    if (status != PEL_OK) {
+        return status;
     }
+#if defined(__OPTIMIZE_SIZE__)
+    status = add_rows(b, classifier, view, labels);
+#else
+    status = is_packed(classifier, view) ? add_packed_rows(b, classifier, view, labels)
+                                         : add_rows(b, classifier, view, labels);
+#endif
     return status < 0 ? status : pel_blobs_end(b, count);
 }
