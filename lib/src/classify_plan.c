@@ -34,7 +34,7 @@ static void add_interval(uint8_t *nibbles, unsigned bit, unsigned min, unsigned 
 {
     for (unsigned i = 0; i < 16 && min <= max; i++) {
         set_bit(&nibbles[PEL_NIBBLES_ABOVE + i], bit, i > min / 16 && i <= max / 16);
-        set_bit(&nibbles[PEL_NIBBLES_FIRST + i], bit, i == min / 16);
+        set_bit(&nibbles[PEL_NIBBLES_ROUGH + i], bit, i >= min / 16 && i <= max / 16);
         set_bit(&nibbles[PEL_NIBBLES_BELOW + i], bit, i != max / 16);
         set_bit(&nibbles[PEL_NIBBLES_FROM + i], bit, i >= min % 16);
         set_bit(&nibbles[PEL_NIBBLES_TO + i], bit, i <= max % 16);

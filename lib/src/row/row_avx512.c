@@ -125,10 +125,9 @@ INLINE row row_of(const uint8_t *nibbles, const pel_row_pairs *src)
         {rough_table(nibbles), table_of(nibbles, PEL_NIBBLES_ABOVE),
          table_of(nibbles, PEL_NIBBLES_BELOW), table_of(nibbles, PEL_NIBBLES_FROM),
          table_of(nibbles, PEL_NIBBLES_TO)},
-        {_mm512_or_si512(chroma_table(nibbles, PEL_NIBBLES_ABOVE),
-                         chroma_table(nibbles, PEL_NIBBLES_FIRST)),
-         chroma_table(nibbles, PEL_NIBBLES_ABOVE), chroma_table(nibbles, PEL_NIBBLES_BELOW),
-         chroma_table(nibbles, PEL_NIBBLES_FROM), chroma_table(nibbles, PEL_NIBBLES_TO)}};
+        {chroma_table(nibbles, PEL_NIBBLES_ROUGH), chroma_table(nibbles, PEL_NIBBLES_ABOVE),
+         chroma_table(nibbles, PEL_NIBBLES_BELOW), chroma_table(nibbles, PEL_NIBBLES_FROM),
+         chroma_table(nibbles, PEL_NIBBLES_TO)}};
     return r;
 }
 

@@ -206,12 +206,12 @@ INLINE three pairs_at(const pel_row_pairs *src, size_t x)
 
 /* The nibble tables of a channel; see row_nibbles.h. */
 typedef struct tables {
-    vec above, first, below, from, to;
+    vec above, rough, below, from, to;
 } tables;
 
 INLINE tables tables_of(const uint8_t *nibbles)
 {
-    const tables t = {load(nibbles + PEL_NIBBLES_ABOVE), load(nibbles + PEL_NIBBLES_FIRST),
+    const tables t = {load(nibbles + PEL_NIBBLES_ABOVE), load(nibbles + PEL_NIBBLES_ROUGH),
                       load(nibbles + PEL_NIBBLES_BELOW), load(nibbles + PEL_NIBBLES_FROM),
                       load(nibbles + PEL_NIBBLES_TO)};
     return t;
@@ -220,7 +220,7 @@ INLINE tables tables_of(const uint8_t *nibbles)
 INLINE vec class_masks(const tables *t, vec values)
 {
     const vec low = vandq_u8(values, vdupq_n_u8(15)), high = vshrq_n_u8(values, 4);
-    const vec from = vandq_u8(vqtbl1q_u8(t->first, high), vqtbl1q_u8(t->from, low));
+    const vec from = vandq_u8(vqtbl1q_u8(t->rough, high), vqtbl1q_u8(t->from, low));
     const vec to = vorrq_u8(vqtbl1q_u8(t->below, high), vqtbl1q_u8(t->to, low));
     return vandq_u8(vorrq_u8(vqtbl1q_u8(t->above, high), from), to);
 }

@@ -10,12 +10,12 @@
 
 /* The nibble tables of a channel; see row_nibbles.h. */
 typedef struct tables {
-    uint8x16_t above, first, below, from, to;
+    uint8x16_t above, rough, below, from, to;
 } tables;
 
 INLINE tables tables_of(const uint8_t *nibbles)
 {
-    const tables t = {vld1q_u8(nibbles + PEL_NIBBLES_ABOVE), vld1q_u8(nibbles + PEL_NIBBLES_FIRST),
+    const tables t = {vld1q_u8(nibbles + PEL_NIBBLES_ABOVE), vld1q_u8(nibbles + PEL_NIBBLES_ROUGH),
                       vld1q_u8(nibbles + PEL_NIBBLES_BELOW), vld1q_u8(nibbles + PEL_NIBBLES_FROM),
                       vld1q_u8(nibbles + PEL_NIBBLES_TO)};
     return t;
@@ -25,7 +25,7 @@ INLINE tables tables_of(const uint8_t *nibbles)
 INLINE uint8x16_t masks_of(const tables *t, uint8x16_t values)
 {
     const uint8x16_t low = vandq_u8(values, vdupq_n_u8(15)), high = vshrq_n_u8(values, 4);
-    const uint8x16_t from = vandq_u8(vqtbl1q_u8(t->first, high), vqtbl1q_u8(t->from, low));
+    const uint8x16_t from = vandq_u8(vqtbl1q_u8(t->rough, high), vqtbl1q_u8(t->from, low));
     const uint8x16_t to = vorrq_u8(vqtbl1q_u8(t->below, high), vqtbl1q_u8(t->to, low));
     return vandq_u8(vorrq_u8(vqtbl1q_u8(t->above, high), from), to);
 }

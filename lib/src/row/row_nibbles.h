@@ -5,11 +5,12 @@
  * an interval falls into two tests on the nibbles of a value, v = 16 h + l, for all 8 classes at
  * once (bit c of every byte below belongs to class c with the interval min..max):
  *
- *     v >= min, and h <= max / 16:    above[h] | (first[h] & from[l])
+ *     v >= min, and h <= max / 16:    above[h] | (rough[h] & from[l])
  *     v <= max, or h < max / 16:      below[h] | to[l]
  *
- * with above: min / 16 < h <= max / 16; first: h == min / 16 <= max / 16; from: l >= min % 16;
- * below: h != max / 16; to: l <= max % 16. Both together are v in min..max, exactly.
+ * with above: min / 16 < h <= max / 16; rough: min / 16 <= h <= max / 16; from: l >= min % 16;
+ * below: h != max / 16; to: l <= max % 16. Both together are v in min..max, exactly. What rough
+ * does not have is not in it, whatever l is; what above and below have is in it.
  */
 #ifndef PEL_ROW_NIBBLES_H
 #define PEL_ROW_NIBBLES_H
@@ -18,7 +19,7 @@
 
 enum {
     PEL_NIBBLES_ABOVE = 0, /* by the high nibble, like the next two */
-    PEL_NIBBLES_FIRST = 16,
+    PEL_NIBBLES_ROUGH = 16,
     PEL_NIBBLES_BELOW = 32,
     PEL_NIBBLES_FROM = 48, /* by the low nibble, like the next */
     PEL_NIBBLES_TO = 64,

@@ -48,7 +48,7 @@ INLINE vec table_of(const uint8_t *channel, unsigned which)
 /* By the high nibble: the classes that may be, and are not if this table does not have them. */
 INLINE vec rough_table(const uint8_t *channel)
 {
-    return BITS(or)(table_of(channel, PEL_NIBBLES_ABOVE), table_of(channel, PEL_NIBBLES_FIRST));
+    return table_of(channel, PEL_NIBBLES_ROUGH);
 }
 
 /* The class masks of values with these high nibbles, of which `rough` are left; `nibble` is 15

@@ -71,12 +71,12 @@ INLINE uint64_t nowhere_of(block places)
 
 /* A row and its classes: what lies in memory, and what the loops hold in registers; there are not
  * enough of these for all tables. Packed 4:2:2 begins at `bytes`; in `order`, every 16 bytes become
- * 4 U, 4 V, 8 Y. */
+ * 4 U, 4 V, 8 Y. `doubt`: by the high nibble of Y, the classes for which the low one decides. */
 typedef struct row {
     const uint8_t *nibbles, *constants;
     const pel_row_pairs *src;
     const uint8_t *bytes;
-    vec order, nibble, rough_u, rough_v;
+    vec order, nibble, doubt;
 } row;
 
 INLINE row row_of(const uint8_t *nibbles, const pel_row_pairs *src)
@@ -90,8 +90,9 @@ INLINE row row_of(const uint8_t *nibbles, const pel_row_pairs *src)
                    src->y < c ? src->y : c,
                    nibble,
                    nibble,
-                   rough_table(nibbles + PEL_NIBBLES_CHANNEL),
-                   rough_table(nibbles + 2 * PEL_NIBBLES_CHANNEL)};
+                   BITS(andnot)(BITS(and)(table_of(nibbles, PEL_NIBBLES_ABOVE),
+                                          table_of(nibbles, PEL_NIBBLES_BELOW)),
+                                table_of(nibbles, PEL_NIBBLES_ROUGH))};
     return r;
 }
 
@@ -151,33 +152,28 @@ INLINE pixels planar_pixels(const row *r, size_t x)
     return p;
 }
 
-/* Half a block on its way to labels: Y and its high nibbles; the classes of its chroma that these
- * leave; and what they say of the bounds, see row_nibbles.h. */
+/* Half a block on its way to labels: Y, its high nibbles, and the classes of its chroma that these
+ * leave. */
 typedef struct half {
-    vec luma, high, rough, above, below;
+    vec luma, high, rough;
 } half;
 
 INLINE half half_of(const row *r, vec luma, vec chroma)
 {
     const vec high = high_nibbles(r->nibble, luma);
-    const half h = {luma, high, BITS(and)(V(shuffle_epi8)(rough_table(r->nibbles), high), chroma),
-                    V(shuffle_epi8)(table_of(r->nibbles, PEL_NIBBLES_ABOVE), high),
-                    V(shuffle_epi8)(table_of(r->nibbles, PEL_NIBBLES_BELOW), high)};
+    const half h = {luma, high, BITS(and)(V(shuffle_epi8)(rough_table(r->nibbles), high), chroma)};
     return h;
 }
 
 /* The classes for which the low nibbles of Y decide. */
-INLINE vec doubts_of(half h)
+INLINE vec doubts_of(const row *r, half h)
 {
-    return BITS(andnot)(BITS(and)(h.above, h.below), h.rough);
+    return BITS(and)(V(shuffle_epi8)(r->doubt, h.high), h.rough);
 }
 
 INLINE vec masks_of_half(const row *r, half h)
 {
-    const vec low = BITS(and)(h.luma, r->nibble);
-    const vec from = V(shuffle_epi8)(table_of(r->nibbles, PEL_NIBBLES_FROM), low);
-    const vec to = V(shuffle_epi8)(table_of(r->nibbles, PEL_NIBBLES_TO), low);
-    return BITS(and)(h.rough, BITS(and)(BITS(or)(h.above, from), BITS(or)(h.below, to)));
+    return masks_of(r->nibbles, r->nibble, h.luma, h.high, h.rough);
 }
 
 INLINE vec places_of_half(const row *r, int is_packed, vec masks)
@@ -194,8 +190,8 @@ INLINE int places_at(const row *r, int is_packed, size_t x, block *places)
     const uint8_t *const of_v = of_u + PEL_NIBBLES_CHANNEL;
     const pixels p = is_packed ? packed_pixels(r, x) : planar_pixels(r, x);
     const vec high_u = high_nibbles(r->nibble, p.u), high_v = high_nibbles(r->nibble, p.v);
-    vec u = V(shuffle_epi8)(r->rough_u, high_u), v = V(shuffle_epi8)(r->rough_v, high_v);
-
+    vec u = V(shuffle_epi8)(rough_table(of_u), high_u);
+    vec v = V(shuffle_epi8)(rough_table(of_v), high_v);
     half left, right;
     vec doubts;
 
@@ -212,7 +208,7 @@ INLINE int places_at(const row *r, int is_packed, size_t x, block *places)
                    V(unpacklo_epi8)(u, u));
     right = half_of(r, is_packed ? V(unpackhi_epi64)(p.second, p.others[1]) : p.second,
                     V(unpackhi_epi8)(u, u));
-    doubts = BITS(or)(doubts_of(left), doubts_of(right));
+    doubts = BITS(or)(doubts_of(r, left), doubts_of(r, right));
     if (!are_apart(doubts, doubts)) {
         left.rough = masks_of_half(r, left);
         right.rough = masks_of_half(r, right);
