@@ -8,7 +8,7 @@
 #if PEL_ROW_MVE && PEL_CLASS_MAX == 8
 #include <arm_mve.h>
 
-enum { BLOCK = 32 };
+enum { BLOCK = PEL_ROW_BLOCK_MVE };
 
 #define INLINE __attribute__((always_inline)) static inline
 
@@ -356,32 +356,22 @@ uint16_t pel_row_find_runs_mve(const uint8_t *labels, uint16_t count, uint16_t *
 #define NAKED __attribute__((naked, noinline))
 #define UNUSED __attribute__((unused))
 
-/* As pel_row_classify_runs_mve, for packed pixels and whole blocks. */
-NAKED static uint16_t runs_luma_first(UNUSED const pel_row_boxes *boxes,
-                                      UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
-                                      UNUSED uint8_t *labels, UNUSED uint16_t *edges)
+NAKED uint16_t pel_row_runs_y_first_mve(UNUSED const pel_row_boxes *boxes,
+                                        UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
+                                        UNUSED uint8_t *labels, UNUSED uint16_t *edges)
 {
     FIND_RUNS(PIXELS_AT_Y, "q0", "q2", "q1", "q3");
 }
 
-NAKED static uint16_t runs_chroma_first(UNUSED const pel_row_boxes *boxes,
-                                        UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
-                                        UNUSED uint8_t *labels, UNUSED uint16_t *edges)
+NAKED uint16_t pel_row_runs_y_second_mve(UNUSED const pel_row_boxes *boxes,
+                                         UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
+                                         UNUSED uint8_t *labels, UNUSED uint16_t *edges)
 {
     FIND_RUNS(PIXELS_AT_CHROMA, "q1", "q3", "q0", "q2");
 }
 
-static uint16_t runs_of_blocks(const pel_row_boxes *boxes, const pel_row_pairs *src, uint16_t count,
-                               uint8_t *labels, uint16_t *edges)
-{
-    return src->y < src->u && src->y < src->v ? runs_luma_first(boxes, src, count, labels, edges)
-                                              : runs_chroma_first(boxes, src, count, labels, edges);
-}
-
-/* Rows that are not packed, or not of whole blocks. */
-static __attribute__((noinline)) uint16_t find_in_any(const pel_row_boxes *boxes,
-                                                      const pel_row_pairs *src, uint16_t count,
-                                                      uint8_t *labels, uint16_t *edges)
+uint16_t pel_row_classify_any_runs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                       uint16_t count, uint8_t *labels, uint16_t *edges)
 {
     const uint16_t done = (uint16_t)(count - count % BLOCK);
     const pel_row_pairs rest = rest_of(src, done);
@@ -393,7 +383,7 @@ static __attribute__((noinline)) uint16_t find_in_any(const pel_row_boxes *boxes
         return pel_row_find_runs_mve(labels, count, edges);
     }
     if (done != 0) {
-        next = edges + 2 * (size_t)runs_of_blocks(boxes, src, done, labels, edges);
+        next = edges + 2 * (size_t)pel_row_runs_of_blocks_mve(boxes, src, done, labels, edges);
         writer.begin = next;
         writer.end = next + 1;
         if (next != edges && next[-1] == done) { /* it may go on */
@@ -404,15 +394,6 @@ static __attribute__((noinline)) uint16_t find_in_any(const pel_row_boxes *boxes
     pel_row_classify_pairs(boxes, &rest, (uint16_t)(count - done), labels + done);
     writer = find_runs_by_label(writer, labels, done, count);
     return (uint16_t)((size_t)(writer.begin - edges) / 2);
-}
-
-uint16_t pel_row_classify_runs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
-                                   uint16_t count, uint8_t *labels, uint16_t *edges)
-{
-    if (src->y_step != 2 || count % BLOCK != 0) {
-        return find_in_any(boxes, src, count, labels, edges);
-    }
-    return runs_of_blocks(boxes, src, count, labels, edges);
 }
 
 #else

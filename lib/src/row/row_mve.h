@@ -17,8 +17,33 @@ extern const uint8_t pel_row_label_of_mask[256];
 void pel_row_classify_pairs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
                                 uint16_t count, uint8_t *labels);
 uint16_t pel_row_find_runs_mve(const uint8_t *labels, uint16_t count, uint16_t *edges);
-uint16_t pel_row_classify_runs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
+
+/* As pel_row_classify_runs: packed pixels in whole blocks, Y before the chroma or behind, or any. */
+enum { PEL_ROW_BLOCK_MVE = 32 };
+uint16_t pel_row_runs_y_first_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                  uint16_t count, uint8_t *labels, uint16_t *edges);
+uint16_t pel_row_runs_y_second_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
                                    uint16_t count, uint8_t *labels, uint16_t *edges);
+uint16_t pel_row_classify_any_runs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                       uint16_t count, uint8_t *labels, uint16_t *edges);
+
+static inline uint16_t pel_row_runs_of_blocks_mve(const pel_row_boxes *boxes,
+                                                  const pel_row_pairs *src, uint16_t count,
+                                                  uint8_t *labels, uint16_t *edges)
+{
+    return src->y < src->u && src->y < src->v
+               ? pel_row_runs_y_first_mve(boxes, src, count, labels, edges)
+               : pel_row_runs_y_second_mve(boxes, src, count, labels, edges);
+}
+
+static inline uint16_t pel_row_classify_runs_mve(const pel_row_boxes *boxes,
+                                                 const pel_row_pairs *src, uint16_t count,
+                                                 uint8_t *labels, uint16_t *edges)
+{
+    return src->y_step != 2 || count % PEL_ROW_BLOCK_MVE != 0
+               ? pel_row_classify_any_runs_mve(boxes, src, count, labels, edges)
+               : pel_row_runs_of_blocks_mve(boxes, src, count, labels, edges);
+}
 #define PEL_BEST_CLASSIFY_PAIRS pel_row_classify_pairs_mve
 #define PEL_BEST_FIND_RUNS pel_row_find_runs_mve
 #define PEL_BEST_CLASSIFY_RUNS pel_row_classify_runs_mve

@@ -202,8 +202,8 @@
     PAIR(y "+12", z "+12", c "+12", d "+12", "83f") \
     "adds r0, #16; cmp r0, lr; blo 61b;"
 
-/* 70: inside, one by one to the end. 80: a pair differs from the run. If its chroma is none, whether
- * half of it tells decides how to go on. */
+/* 70: inside, one by one to the end. 80: a pair differs from the run. If its chroma is that of no
+ * class, whether half of it tells decides how to go on. */
 #define INSIDE_AT_THE_END(y, z, c, d) \
     "70: ldr r7, [sp]; cmp r0, r7; bhs 90f;" \
     PAIR(y "+0", z "+0", c "+0", d "+0", "80f") "adds r0, #4; b 70b;"
@@ -235,29 +235,18 @@
 #define NAKED __attribute__((naked, noinline))
 #define UNUSED __attribute__((unused))
 
-/* As pel_row_classify_runs, for an even number of packed pixels. */
-NAKED static uint16_t runs_y_first(UNUSED const pel_row_boxes *boxes,
-                                   UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
-                                   UNUSED uint8_t *labels, UNUSED uint16_t *edges)
+NAKED uint16_t pel_row_runs_y_first_thumb(UNUSED const pel_row_boxes *boxes,
+                                          UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
+                                          UNUSED uint8_t *labels, UNUSED uint16_t *edges)
 {
     RUNS("r6", "0", "1", "2", "3");
 }
 
-NAKED static uint16_t runs_y_second(UNUSED const pel_row_boxes *boxes,
-                                    UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
-                                    UNUSED uint8_t *labels, UNUSED uint16_t *edges)
+NAKED uint16_t pel_row_runs_y_second_thumb(UNUSED const pel_row_boxes *boxes,
+                                           UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
+                                           UNUSED uint8_t *labels, UNUSED uint16_t *edges)
 {
     RUNS("r4", "1", "0", "3", "2");
-}
-
-uint16_t pel_row_classify_runs_thumb(const pel_row_boxes *boxes, const pel_row_pairs *src,
-                                     uint16_t count, uint8_t *labels, uint16_t *edges)
-{
-    if (src->y_step != 2 || count % 2 != 0) {
-        return pel_row_classify_runs(boxes, src, count, labels, edges);
-    }
-    return src->y < src->u && src->y < src->v ? runs_y_first(boxes, src, count, labels, edges)
-                                              : runs_y_second(boxes, src, count, labels, edges);
 }
 
 #else

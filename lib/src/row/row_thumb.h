@@ -18,8 +18,23 @@
 #endif
 
 #if PEL_ROW_THUMB
-uint16_t pel_row_classify_runs_thumb(const pel_row_boxes *boxes, const pel_row_pairs *src,
+/* As pel_row_classify_runs, for an even number of packed pixels, Y before the chroma or behind. */
+uint16_t pel_row_runs_y_first_thumb(const pel_row_boxes *boxes, const pel_row_pairs *src,
+                                    uint16_t count, uint8_t *labels, uint16_t *edges);
+uint16_t pel_row_runs_y_second_thumb(const pel_row_boxes *boxes, const pel_row_pairs *src,
                                      uint16_t count, uint8_t *labels, uint16_t *edges);
+
+static inline uint16_t pel_row_classify_runs_thumb(const pel_row_boxes *boxes,
+                                                   const pel_row_pairs *src, uint16_t count,
+                                                   uint8_t *labels, uint16_t *edges)
+{
+    if (src->y_step != 2 || count % 2 != 0) {
+        return pel_row_classify_runs(boxes, src, count, labels, edges);
+    }
+    return src->y < src->u && src->y < src->v
+               ? pel_row_runs_y_first_thumb(boxes, src, count, labels, edges)
+               : pel_row_runs_y_second_thumb(boxes, src, count, labels, edges);
+}
 #define PEL_ROW_RUNS_SCALAR pel_row_classify_runs_thumb
 #else
 #define PEL_ROW_RUNS_SCALAR pel_row_classify_runs
