@@ -294,23 +294,17 @@ uint16_t pel_row_find_runs_mve(const uint8_t *labels, uint16_t count, uint16_t *
  *     r3   masks of the second one              r10  the top bit
  *     r4   labels of the block, or its place    r11  bits, r12 too
  *     r5   labels of masks                      lr   blocks that are left
- *     r6   place of the next edge               [sp] r5, how many pixels
+ *     r6   place of the next edge               [sp] r5, first edge, how many pixels
  *     q0 to q3  the bytes of the pixels         q4 to q6  masks, and labels one pixel before
  */
 
 /* clang-format off */
 
-/* The arguments are those of pel_row_classify_runs. The pixels begin at the first Y, or at the
- * chroma byte that comes first; which of U and V that is decides over the tables of r2 and r3. */
-#define ENTER(load_pixels) \
-    ".syntax unified; push {r4-r11, lr}; vpush {d8-d13}; ldrd r4, r5, [r1, #4]; mov r12, r1;" \
-    "add r9, r3, r2; ldrd r1, r8, [r0]; ldr r11, [r0, #8]; lsr lr, r2, #5; mov r10, r2;" \
-    "cmp r4, r5; itete lo; movlo r2, r8; movhs r2, r11; movlo r3, r11; movhs r3, r8;" \
-    load_pixels \
+#define ENTER \
+    ".syntax unified; push {r4-r11, lr}; vpush {d8-d13}; add r9, r2, r1; mov r6, r3;" \
+    "lsr lr, r1, #5; mov r10, r1; ldm r0, {r0, r1, r2, r3};" \
     "movw r5, #:lower16:pel_row_label_of_mask; movt r5, #:upper16:pel_row_label_of_mask;" \
-    "ldr r6, [sp, #84]; movs r7, #0; push {r5, r10}; mov r10, #0x80000000;"
-#define PIXELS_AT_Y "ldr r0, [r12];"
-#define PIXELS_AT_CHROMA "ite lo; movlo r0, r4; movhs r0, r5;"
+    "movs r7, #0; push {r5, r6, r10}; mov r10, #0x80000000;"
 
 #define NEXT_BLOCK(c, d) \
     "1: vld40.8 {q0, q1, q2, q3}, [r0]; vld41.8 {q0, q1, q2, q3}, [r0];" \
@@ -333,7 +327,7 @@ uint16_t pel_row_find_runs_mve(const uint8_t *labels, uint16_t count, uint16_t *
 #define MEETINGS \
     "vcmp.i8 ne, q2, zr; vmrs r11, p0; vcmp.i8 ne, q3, zr; vmrs r4, p0;" \
     "orr r11, r11, r4, lsl #16; cmp r12, #1; adc r12, r11, r11; and r11, r11, r12;" \
-    "ldr r4, [sp, #4]; sub r4, r4, lr, lsl #5; ands r11, r8; rbit r8, r8; bne 3f;"
+    "ldr r4, [sp, #8]; sub r4, r4, lr, lsl #5; ands r11, r8; rbit r8, r8; bne 3f;"
 
 #define PUT_EDGES \
     "2: clz r11, r8; add r12, r4, r11; strh r12, [r6], #2; lsr r11, r10, r11; bics r8, r11;" \
@@ -344,11 +338,11 @@ uint16_t pel_row_find_runs_mve(const uint8_t *labels, uint16_t count, uint16_t *
 
 /* A run that is open ends behind the last pixel. */
 #define LEAVE \
-    "9: pop {r5, r10}; cbz r7, 5f; strh r10, [r6], #2;" \
-    "5: vpop {d8-d13}; ldr r1, [sp, #36]; subs r0, r6, r1; lsrs r0, r0, #2; pop {r4-r11, pc};"
+    "9: pop {r4, r5, r10}; cbz r7, 5f; strh r10, [r6], #2;" \
+    "5: vpop {d8-d13}; subs r0, r6, r5; lsrs r0, r0, #2; pop {r4-r11, pc};"
 
-#define FIND_RUNS(load_pixels, left, right, c, d) \
-    __asm__(ENTER(load_pixels) "wls lr, lr, 9f;" NEXT_BLOCK(c, d) LABEL_BLOCK(left, right) \
+#define FIND_RUNS(left, right, c, d) \
+    __asm__(ENTER "wls lr, lr, 9f;" NEXT_BLOCK(c, d) LABEL_BLOCK(left, right) \
             CHANGES MEETINGS PUT_EDGES "8: le lr, 1b;" LEAVE)
 
 /* clang-format on */
@@ -356,18 +350,16 @@ uint16_t pel_row_find_runs_mve(const uint8_t *labels, uint16_t count, uint16_t *
 #define NAKED __attribute__((naked, noinline))
 #define UNUSED __attribute__((unused))
 
-NAKED uint16_t pel_row_runs_y_first_mve(UNUSED const pel_row_boxes *boxes,
-                                        UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
+NAKED uint16_t pel_row_runs_y_first_mve(UNUSED const pel_row_packed *row, UNUSED uint16_t count,
                                         UNUSED uint8_t *labels, UNUSED uint16_t *edges)
 {
-    FIND_RUNS(PIXELS_AT_Y, "q0", "q2", "q1", "q3");
+    FIND_RUNS("q0", "q2", "q1", "q3");
 }
 
-NAKED uint16_t pel_row_runs_y_second_mve(UNUSED const pel_row_boxes *boxes,
-                                         UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
+NAKED uint16_t pel_row_runs_y_second_mve(UNUSED const pel_row_packed *row, UNUSED uint16_t count,
                                          UNUSED uint8_t *labels, UNUSED uint16_t *edges)
 {
-    FIND_RUNS(PIXELS_AT_CHROMA, "q1", "q3", "q0", "q2");
+    FIND_RUNS("q1", "q3", "q0", "q2");
 }
 
 uint16_t pel_row_classify_any_runs_mve(const pel_row_boxes *boxes, const pel_row_pairs *src,

@@ -18,7 +18,7 @@
  *     r3   masks of the second one              r11  mask of the run, see PAIR
  *     r4   mask of the left pixel               r12  from here on, fewer than eight pairs are left
  *     r5   mask of the right pixel              lr   from here on, fewer than four
- *     r6   mask of the chroma, or a place       [sp] behind the last pair
+ *     r6   mask of the chroma, or a place       [sp] first edge, behind the last pair
  *     r7   scratch; so are r4 to r6 until they are what they are
  *
  * The macros take the parts of a pair by their offsets: y, z the left and the right Y, c, d the
@@ -33,6 +33,7 @@
 #define SAVE "push {r4-r11, lr};"
 #define RETURN "pop {r4-r11, pc};"
 #define IF_NOT_0(reg, to) "cbnz " reg ", " to ";"
+#define IF_0(reg, to) "cbz " reg ", " to ";"
 #define IF_NOT_0_FAR(to) "bne " to ";"
 /* Bytes of HALF and IF_NOT_0 together, for each of four pixel bytes: 6 / 4. */
 #define HALVES_AHEAD "lsrs r4, r6, #1; adds r6, r4;"
@@ -48,6 +49,7 @@
 #define SAVE "push {r4-r7, lr}; mov r4, r8; mov r5, r9; mov r6, r10; mov r7, r11; push {r4-r7};"
 #define RETURN "pop {r4-r7}; mov r8, r4; mov r9, r5; mov r10, r6; mov r11, r7; pop {r4-r7, pc};"
 #define IF_NOT_0(reg, to) "cmp " reg ", #0; bne " to ";"
+#define IF_0(reg, to) "cmp " reg ", #0; beq " to ";"
 #define IF_NOT_0_FAR(to) "beq 3f; b " to "; 3:"
 #define HALVES_AHEAD "adds r6, r6;"
 #define PLACE(reg) "mov " reg ", r8; subs " reg ", r0, " reg "; lsrs " reg ", " reg ", #1;"
@@ -75,19 +77,16 @@
 
 /* ---- States -------------------------------------------------------------------------------- */
 
-/* Of the chroma bytes, the first may be U or V. */
-#define ENTER(pairs) \
-    ".syntax unified;" SAVE "mov r10, r3; ldr r6, [sp, #36]; mov r9, r6; lsls r7, r2, #1;" \
-    "ldr r6, [r1]; ldr r4, [r1, #4]; ldr r5, [r1, #8]; ldr r1, [r0]; ldr r2, [r0, #4];" \
-    "ldr r3, [r0, #8]; cmp r4, r5; bls 1f; mov r0, r2; mov r2, r3; mov r3, r0; mov r4, r5;" \
-    "1: mov r0, " pairs "; mov r8, r0; adds r7, r0; push {r7};" \
+#define ENTER \
+    ".syntax unified;" SAVE "mov r10, r2; mov r9, r3; mov r6, r3; lsls r7, r1, #1;" \
+    "ldm r0, {r0, r1, r2, r3}; mov r8, r0; adds r7, r0; push {r6, r7};" \
     "subs r7, #12; mov lr, r7; subs r7, #16; mov r12, r7;"
 
 /* The loops over eight pairs are entered in the middle for the last pairs of a row, so that these
  * are the last of eight: r6 becomes four times how many are left out, of which there is one at
  * least. A jump goes from four bytes behind itself. */
 #define LAST_PAIRS(end) \
-    "ldr r7, [sp]; cmp r0, r7; bhs " end "; subs r7, #32; subs r6, r0, r7; mov r0, r7;"
+    "ldr r7, [sp, #4]; cmp r0, r7; bhs " end "; subs r7, #32; subs r6, r0, r7; mov r0, r7;"
 #define JUMP_AHEAD "add pc, r6; nop;"
 
 /* 10: outside, by half of the chroma. Where it does not tell for four neighbours, on to 20. */
@@ -128,8 +127,9 @@
     CHROMA(c "+16", d "+16") "bne 29f;" \
     CHROMA(c "+20", d "+20") "bne 23f;" \
     CHROMA(c "+24", d "+24") "bne 24f;" \
-    CHROMA(c "+28", d "+28") "bne 2f;" \
-    "adds r0, #32; cmp r0, r12; bhs 21b; cmp r7, #0; bne 22b; b 11b;" \
+    HALF(d "+28") IF_0("r4", "5f") OTHER_HALF(c "+28") "bne 2f;" \
+    "adds r0, #32; cmp r0, r12; blo 22b; b 21b;" \
+    "5: b 19b;" \
     "2: adds r0, #28; b 25f;" \
     "24: adds r0, #24; b 25f;" \
     "23: adds r0, #20; b 25f;" \
@@ -205,7 +205,7 @@
 /* 70: inside, one by one to the end. 80: a pair differs from the run. If its chroma is that of no
  * class, whether half of it tells decides how to go on. */
 #define INSIDE_AT_THE_END(y, z, c, d) \
-    "70: ldr r7, [sp]; cmp r0, r7; bhs 90f;" \
+    "70: ldr r7, [sp, #4]; cmp r0, r7; bhs 90f;" \
     PAIR(y "+0", z "+0", c "+0", d "+0", "80f") "adds r0, #4; b 70b;"
 #define CHANGE(d) \
     "83: adds r0, #12; b 80f;" \
@@ -222,11 +222,11 @@
 /* A run that is open ends behind the last pair. */
 #define LEAVE \
     "90:" PLACE("r6") PUT_EDGE("r6", "r7") \
-    "99: add sp, #4; ldr r1, [sp, #36]; mov r0, r9; subs r0, r1; lsrs r0, #2;" RETURN
+    "99: pop {r1, r2}; mov r0, r9; subs r0, r1; lsrs r0, #2;" RETURN
 
 /* In parts, as strings have a limit. */
-#define RUNS(pairs, y, c, z, d) \
-    __asm__(ENTER(pairs) OUTSIDE_BY_HALF(c, d) OUTSIDE_BY_CHROMA(y, z, c, d)); \
+#define RUNS(y, c, z, d) \
+    __asm__(ENTER OUTSIDE_BY_HALF(c, d) OUTSIDE_BY_CHROMA(y, z, c, d)); \
     __asm__(".syntax unified;" OUTSIDE_BY_LUMA(y, z, c, d) BEGIN); \
     __asm__(".syntax unified;" INSIDE(y, z, c, d) INSIDE_AT_THE_END(y, z, c, d) CHANGE(d) LEAVE)
 
@@ -235,18 +235,16 @@
 #define NAKED __attribute__((naked, noinline))
 #define UNUSED __attribute__((unused))
 
-NAKED uint16_t pel_row_runs_y_first_thumb(UNUSED const pel_row_boxes *boxes,
-                                          UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
+NAKED uint16_t pel_row_runs_y_first_thumb(UNUSED const pel_row_packed *row, UNUSED uint16_t count,
                                           UNUSED uint8_t *labels, UNUSED uint16_t *edges)
 {
-    RUNS("r6", "0", "1", "2", "3");
+    RUNS("0", "1", "2", "3");
 }
 
-NAKED uint16_t pel_row_runs_y_second_thumb(UNUSED const pel_row_boxes *boxes,
-                                           UNUSED const pel_row_pairs *src, UNUSED uint16_t count,
+NAKED uint16_t pel_row_runs_y_second_thumb(UNUSED const pel_row_packed *row, UNUSED uint16_t count,
                                            UNUSED uint8_t *labels, UNUSED uint16_t *edges)
 {
-    RUNS("r4", "1", "0", "3", "2");
+    RUNS("1", "0", "3", "2");
 }
 
 #else
