@@ -70,6 +70,9 @@ enum { ABOVE, HERE };
  */
 enum { SLOT_STEPS = sizeof(struct pel_blob_slot) / 8, OPEN_USED = 0xFF00 / SLOT_STEPS };
 
+/* SLOT_STEPS times this is 1 modulo 2^32: multiplied with it, a name is the number of its slot. */
+#define SLOT_STEPS_INVERSE ((uint32_t)0xAAAAAAAB)
+
 static inline slot *pel_i_slot(slot *slots, size_t id)
 {
     return (slot *)(void *)((unsigned char *)slots + 8 * id);

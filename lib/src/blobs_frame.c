@@ -54,10 +54,10 @@ static void lay_out(pel_blobs *b)
 {
     const pel_blobs_config *const c = &b->config;
     const size_t open = c->open_max, width = (size_t)c->width + 1;
+    const uint32_t extra_bytes = PEL_BLOBS_SLOT_BYTES(c->measure) - (uint32_t)sizeof(slot);
 
-    b->extra_count = (uint8_t)((PEL_BLOBS_SLOT_BYTES(c->measure) - sizeof(slot)) / 8);
-    b->extras = c->work;
-    b->slots = (slot *)(void *)(b->extras + open * b->extra_count);
+    b->extra_step = extra_bytes * SLOT_STEPS_INVERSE;
+    b->slots = (slot *)(void *)((unsigned char *)c->work + open * extra_bytes);
     b->runs[ABOVE] = (pel_run *)(void *)(b->slots + open);
     b->runs[HERE] = b->runs[ABOVE] + width;
     b->ids[ABOVE] = (uint16_t *)(void *)(b->runs[HERE] + width);

@@ -4,16 +4,24 @@
 #include "blob_slots.h"
 #include "row/row.h"
 
-/* The sums of a slot; id / SLOT_STEPS exactly, as id < 2^16. */
+/* The sums of a slot. */
 static inline uint64_t *extras_of(const pel_blobs *b, uint32_t id)
 {
-    return b->extras + (size_t)(id * 0xAAABu >> 17) * b->extra_count;
+    return (uint64_t *)(void *)((unsigned char *)b->config.work + (uint32_t)(id * b->extra_step));
+}
+
+static inline unsigned extra_count(const pel_blobs *b)
+{
+    return (unsigned)((PEL_BLOBS_SLOT_BYTES(b->config.measure) - sizeof(slot)) / 8);
 }
 
 static inline void unite_extras(const pel_blobs *b, unsigned into, unsigned from)
 {
-    for (unsigned i = 0; i < b->extra_count; i++) {
-        extras_of(b, into)[i] += extras_of(b, from)[i];
+    uint64_t *const sums = extras_of(b, into), *const others = extras_of(b, from);
+    const unsigned count = extra_count(b);
+
+    for (unsigned i = 0; i < count; i++) {
+        sums[i] += others[i];
     }
 }
 
@@ -56,9 +64,17 @@ static inline uint64_t sum_of_yy(pel_run run, uint32_t y)
     return wide_product((uint32_t)run.x1 - run.x0, y * y);
 }
 
-static inline uint64_t outline_of(uint32_t touched)
+static inline void add_outline(uint64_t *sum, uint32_t touched)
 {
-    return ((uint64_t)1 << 32) + 1 - ((uint64_t)(touched >> 16) << 32) - (touched & 0xFFFF);
+    *sum += ((uint64_t)1 << 32) + 1;
+    *sum -= (uint64_t)(touched >> 16) << 32 | (touched & 0xFFFF);
+}
+
+static inline void add_moments(uint64_t sums[3], pel_run run, uint32_t y)
+{
+    sums[0] += sum_of_12xx(run);
+    sums[1] += sum_of_xy(run, y);
+    sums[2] += sum_of_yy(run, y);
 }
 
 /* The first run of a blob. */
@@ -68,7 +84,7 @@ static inline void set_extras(const pel_blobs *b, unsigned id, pel_run run)
     uint64_t *extra = extras_of(b, id);
 
     if (measure & PEL_MEASURE_OUTLINE) {
-        *extra++ = outline_of(0);
+        *extra++ = ((uint64_t)1 << 32) + 1;
     }
     if (measure & PEL_MEASURE_MOMENTS) {
         *extra++ = sum_of_12xx(run);
@@ -87,12 +103,10 @@ static inline void add_extras(const pel_blobs *b, unsigned id, pel_run run, uint
     uint64_t *extra = extras_of(b, id);
 
     if (measure & PEL_MEASURE_OUTLINE) {
-        *extra++ += outline_of(touched);
+        add_outline(extra++, touched);
     }
     if (measure & PEL_MEASURE_MOMENTS) {
-        extra[0] += sum_of_12xx(run);
-        extra[1] += sum_of_xy(run, b->next_row);
-        extra[2] += sum_of_yy(run, b->next_row);
+        add_moments(extra, run, b->next_row);
     }
 }
 
@@ -143,11 +157,13 @@ static void add_color(const pel_blobs *b, uint64_t *sums, pel_run run, const pel
  * sums of colour are the last two. */
 PEL_I_APART static void add_colors(const pel_blobs *b, size_t count, const pel_crow *pixels)
 {
+    const unsigned last_two = extra_count(b) - 2;
+
     for (size_t i = 0; i < count; i++) {
         const unsigned id = b->ids[ABOVE][i];
         if (id < LOST) {
-            add_color(b, extras_of(b, find_root(b->slots, id)) + b->extra_count - 2,
-                      b->runs[ABOVE][i], pixels);
+            add_color(b, extras_of(b, find_root(b->slots, id)) + last_two, b->runs[ABOVE][i],
+                      pixels);
         }
     }
 }

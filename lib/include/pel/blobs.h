@@ -257,7 +257,7 @@ typedef struct pel_blobs {
     pel_blobs_config config;
     pel_blobs_counts counts;
     struct pel_blob_slot *slots;
-    uint64_t *extras;      /* what is measured beyond the basics, extra_count for each slot */
+    uint32_t extra_step;   /* the name of a slot times this: where in work its other sums lie */
     pel_run *runs[2];      /* of the row above and of this row, which change places */
     uint16_t *ids[2];      /* the blob of each run */
     const uint8_t *labels; /* of the row before: they lie where the finder does not write */
@@ -266,7 +266,6 @@ typedef struct pel_blobs {
     uint16_t free_slot;
     uint16_t united_slot;
     uint16_t open_count;
-    uint8_t extra_count;
     uint8_t reach;
     uint8_t state;
     uint8_t losses;
