@@ -66,8 +66,7 @@ static inline uint64_t sum_of_yy(pel_run run, uint32_t y)
 
 static inline void add_outline(uint64_t *sum, uint32_t touched)
 {
-    *sum += ((uint64_t)1 << 32) + 1;
-    *sum -= (uint64_t)(touched >> 16) << 32 | (touched & 0xFFFF);
+    *sum += ((uint64_t)1 << 32) + 1 - ((uint64_t)(touched >> 16) << 32) - (touched & 0xFFFF);
 }
 
 static inline void add_moments(uint64_t sums[3], pel_run run, uint32_t y)
