@@ -70,6 +70,9 @@ def test_limits():
                        ("whole library", 49152)):
         check(outcome(budgets.check_limits, [row("linked", most, item)])[:2] == (1, 0), item)
         check(outcome(budgets.check_limits, [row("linked", most + 1, item)])[:2] == (0, 1), item)
+    china = {"kind": "instructions", "item": "blobs basic china", "target": "cortex-m4"}
+    for value, expected in ((8.24, (1, 0)), (8.25, (0, 1))):
+        check(outcome(budgets.check_limits, [row(value=value, **china)])[:2] == expected, "an aim")
     # Each stack is one check, and the share of small ones another.
     for sizes, expected in (((127, 64, 512), (4, 0)), ((127, 64, 513), (3, 1)),
                             ((127, 128), (2, 1))):
@@ -82,6 +85,9 @@ def test_file():
     keys = [(r.kind, r.target, r.item) for r in rows if r.kind != budgets.PEER]
     check(len(keys) > 1000, f"{budgets.KEPT.name} has only {len(keys)} rows")
     check(len(keys) == len(set(keys)), f"{budgets.KEPT.name} has a row twice")
+    for limit in budgets.LIMITS:
+        check(any(r.kind == limit.kind and re.fullmatch(limit.target, r.target) and
+                  re.fullmatch(limit.item, r.item) for r in rows), f"{limit} limits nothing")
     ours = {r.item for r in rows if r.kind == "instructions"}
     peers = [r for r in rows if r.kind == budgets.PEER]
     check(len(peers) > 20, "figures of peers")
