@@ -22,10 +22,10 @@ int pel_i_blob_before(const pel_blob *a, const pel_blob *b)
 }
 
 #if defined(__OPTIMIZE_SIZE__)
-#define before pel_i_blob_before
+#define comes_before pel_i_blob_before
 #else
 /* Mostly the area decides. */
-static inline int before(const pel_blob *a, const pel_blob *b)
+static inline int comes_before(const pel_blob *a, const pel_blob *b)
 {
     return a->area != b->area ? a->area > b->area : pel_i_blob_before(a, b);
 }
@@ -48,7 +48,7 @@ static inline pel_blob *last_of(pel_blob *blobs, const pel_blob *end)
     for (pel_blob *blob = blobs + 1; blob < end; blob++) {
         const uint64_t key = key_of(blob);
         if (!RUNS_AHEAD || key == last_key) {
-            last = before(last, blob) ? blob : last;
+            last = comes_before(last, blob) ? blob : last;
         } else {
             last = key < last_key ? blob : last;
             last_key = key < last_key ? key : last_key;
@@ -68,7 +68,7 @@ static void sift_down(pel_blob *heap, uint32_t count, uint32_t hole, const pel_b
     for (uint32_t left = CHILDREN * hole + 1; left < count;) {
         pel_blob *const first = &heap[left];
         pel_blob *const last = last_of(first, left + CHILDREN < count ? first + CHILDREN : end);
-        if (!before(blob, last)) {
+        if (!comes_before(blob, last)) {
             break;
         }
         *place = *last;

@@ -72,6 +72,7 @@ enum { SLOT_STEPS = sizeof(struct pel_blob_slot) / 8, OPEN_USED = 0xFF00 / SLOT_
 
 /* SLOT_STEPS times this is 1 modulo 2^32: multiplied with it, a name is the number of its slot. */
 #define SLOT_STEPS_INVERSE ((uint32_t)0xAAAAAAAB)
+typedef char pel_i_inverse_holds[(uint32_t)(SLOT_STEPS * SLOT_STEPS_INVERSE) == 1 ? 1 : -1];
 
 static inline slot *pel_i_slot(slot *slots, size_t id)
 {

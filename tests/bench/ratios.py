@@ -114,7 +114,7 @@ def tables(rows):
 
 
 def main():
-    rows = measure(sys.argv[1], sys.argv[3] if len(sys.argv) > 3 else "150")
+    rows = measure(sys.argv[1], sys.argv[3] if len(sys.argv) > 3 else "200")
     lines, missing = tables(rows)
     text = "".join(line + "\n" for line in lines)
     Path(sys.argv[2]).write_text(text, encoding="utf-8")
